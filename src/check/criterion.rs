@@ -1,0 +1,113 @@
+//! What a scenario asks of a run, and what came of it.
+
+/// One question about a run and the answer that the scenario expects.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CriterionSpec {
+    /// Its name in reports: unique in the scenario.
+    pub name: String,
+    /// The question.
+    pub kind: CriterionKind,
+    /// The answer that the scenario expects.
+    pub expect: Expectation,
+}
+
+/// The answer that a scenario expects of a criterion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expectation {
+    /// It must hold.
+    Pass,
+    /// It must not hold: a counterfactual run shows what goes wrong.
+    Fail,
+    /// It is only reported.
+    Report,
+}
+
+/// The questions that can be asked. All are answered from the simulated world, none from the plan.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CriterionKind {
+    /// The object lies inside the container, at rest. Value: horizontal distance of the centres (m).
+    ObjectInContainer {
+        /// The object's name.
+        object: String,
+        /// The container's name.
+        container: String,
+        /// Largest speed that counts as rest (m/s).
+        speed_max_m_per_s: f64,
+    },
+    /// Neither the robot nor what it holds touches the objects. Value: number of touching pairs.
+    NoContact {
+        /// The objects' names.
+        objects: Vec<String>,
+    },
+    /// The robot and what it holds stay away from the objects. Value: the smallest distance (m).
+    Clearance {
+        /// The objects' names.
+        objects: Vec<String>,
+        /// The smallest distance allowed (m).
+        min_m: f64,
+    },
+    /// The tool ends at the skill's goal. Value: the distance (m).
+    GoalReached {
+        /// The largest distance allowed (m).
+        max_m: f64,
+    },
+    /// The person's force never exceeds the limit. Value: the peak force (N).
+    HumanForce {
+        /// The largest force (N).
+        max_n: f64,
+    },
+    /// A compliant window contains the moment when the gripper closes and ends before the tool reaches the object. Value: seconds to spare.
+    ComplianceWindow {
+        /// The object before which the arm must be stiff again.
+        ends_before: String,
+    },
+    /// When the gripper closes, it is over the object. Value: horizontal distance from grasp centre to object (m).
+    GripperOverObject {
+        /// The object's name.
+        object: String,
+        /// The largest distance allowed (m).
+        max_m: f64,
+    },
+    /// While the person pushes, the coupling moves the reference by no more than this. Value: the largest displacement (m).
+    ReferenceUnmoved {
+        /// The largest displacement (m); 0 asks for exactly none.
+        max_m: f64,
+    },
+    /// While the person pushes, the tool stays near where the reference wants it. Value: largest change of the distance since the push began (m).
+    GripperUnmoved {
+        /// The largest change (m).
+        max_m: f64,
+    },
+}
+
+/// The answer to one criterion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Criterion {
+    /// Its name.
+    pub name: String,
+    /// The answer that was expected.
+    pub expect: Expectation,
+    /// Whether it holds.
+    pub passed: bool,
+    /// The measured value, in `unit`. NaN when the event it is about never happened.
+    pub value: f64,
+    /// The limit it is held against, in `unit`.
+    pub limit: f64,
+    /// How far the value is on the right side of the limit, in `unit` (negative: on the wrong side).
+    pub margin: f64,
+    /// `m`, `N`, `s` or `1`.
+    pub unit: &'static str,
+    /// When it first failed (s), if it failed at a moment.
+    pub first_failed_time_s: Option<f64>,
+}
+
+impl Criterion {
+    /// Whether the answer is the one that the scenario expects.
+    pub fn as_expected(&self) -> bool {
+        match self.expect {
+            Expectation::Pass => self.passed,
+            Expectation::Fail => !self.passed,
+            Expectation::Report => true,
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Judges a run from what it left behind: step records, contacts, clearances, where things ended. Never asks the engine or the controller.
+
+mod criterion;
+mod judge;
+mod windows;
+
+pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation};
+pub use judge::judge;
+pub use windows::{Window, compliance_windows, human_windows};

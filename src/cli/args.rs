@@ -1,0 +1,129 @@
+//! The command line as typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// A physics testbed for Compliant Parametric Dynamic Movement Primitives.
+///
+/// Teaches a simulated robot by a virtual human, learns the skill, executes it in a new setting with a helping hand, and judges the result.
+#[derive(Debug, Parser)]
+#[command(name = "cpdmp", version, propagate_version = true, arg_required_else_help = true)]
+#[command(after_help = "Results go to stdout, progress to stderr. `cpdmp explain` lists the exit codes.")]
+pub(super) struct Cli {
+    #[command(flatten)]
+    pub global: Global,
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Teach, learn, execute, judge and record: one run folder per scenario
+    Run(Paths),
+    /// Check scenarios and what they need, without simulating: all faults at once
+    Validate(Paths),
+    /// List the scenarios of a folder, with what each shows
+    List(Folders),
+    /// Explain exit codes and the codes of faults
+    Explain(Code),
+}
+
+/// Scenarios.
+#[derive(Debug, Args)]
+pub(super) struct Paths {
+    /// Scenario files, folders of them, or patterns with `*` and `?` in the file name
+    #[arg(required = true, value_name = "SCENARIO")]
+    pub paths: Vec<PathBuf>,
+}
+
+/// Where scenarios are looked for.
+#[derive(Debug, Args)]
+pub(super) struct Folders {
+    /// Scenario files, folders or patterns
+    #[arg(default_value = "scenarios", value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+}
+
+/// What to explain.
+#[derive(Debug, Args)]
+pub(super) struct Code {
+    /// An exit code (`10`), its name (`criteria_not_met`), or the code of a fault (`unknown_key`); all of them without one
+    pub code: Option<String>,
+}
+
+/// What every command understands. A flag wins over the environment, that over the scenario, that over the default.
+#[derive(Debug, Args)]
+pub(super) struct Global {
+    /// Override a key of the scenario (`object.toy.radius_m=0.035`); may be repeated
+    #[arg(long, global = true, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Override the scenario's seed
+    #[arg(long, global = true, env = "CPDMP_SEED", value_name = "N", value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    pub seed: Option<u64>,
+    /// Use this robot: a URDF file, or builtin:baxter
+    #[arg(long, global = true, env = "CPDMP_ROBOT", value_name = "URDF")]
+    pub robot: Option<String>,
+    /// Let scenarios use the files of this folder too; may be repeated
+    #[arg(long, global = true, env = "CPDMP_ASSET_ROOT", value_name = "DIR")]
+    pub asset_root: Vec<PathBuf>,
+    /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>
+    #[arg(long, global = true, env = "CPDMP_OUT", value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Use this many threads; the result does not depend on it
+    #[arg(long, global = true, env = "CPDMP_JOBS", value_name = "N", value_parser = threads)]
+    pub jobs: Option<usize>,
+    /// Print results for people, or as JSON, one document per line
+    #[arg(long, global = true, env = "CPDMP_FORMAT", value_enum, default_value = "human")]
+    pub format: Format,
+    /// Tell more: also what is odd about the robot's file
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+    /// Tell nothing but results and errors
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Colour the output
+    #[arg(long, global = true, env = "CPDMP_COLOR", value_enum, default_value = "auto", value_name = "WHEN")]
+    pub color: Colour,
+    /// Draw no progress bars
+    #[arg(long, global = true, env = "CPDMP_NO_PROGRESS")]
+    pub no_progress: bool,
+}
+
+/// For whom results are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// For people.
+    Human,
+    /// For programs.
+    Json,
+}
+
+/// When output is coloured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Colour {
+    /// On a terminal that can, unless NO_COLOR is set.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count @ 1..=1024) => Ok(count),
+        _ => Err("a whole number, 1 … 1024".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        super::Cli::command().debug_assert();
+    }
+}

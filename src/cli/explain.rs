@@ -1,0 +1,50 @@
+//! `cpdmp explain`: what exit codes and codes of faults mean.
+
+use serde::Serialize;
+
+use super::args::{Format, Global};
+use super::terminal::Terminal;
+use crate::report::Outcome;
+use crate::scenario::Code;
+
+/// One code with its meaning.
+#[derive(Serialize)]
+struct Entry {
+    /// Present for exit codes only.
+    exit_code: Option<u8>,
+    name: &'static str,
+    meaning: &'static str,
+}
+
+/// Explains one code, or all.
+pub(super) fn explain(code: Option<&str>, _global: &Global, terminal: &Terminal) -> Outcome {
+    let mut outcomes = Outcome::ALL;
+    outcomes.sort_by_key(|outcome| outcome.exit_code());
+    let exits = outcomes.map(|outcome| Entry { exit_code: Some(outcome.exit_code()), name: outcome.name(), meaning: outcome.describe() });
+    let faults = Code::ALL.map(Code::describe).map(|(name, meaning)| Entry { exit_code: None, name, meaning });
+    let asked = |entry: &Entry| code.is_none_or(|code| entry.name == code || entry.exit_code.is_some_and(|exit| exit.to_string() == code));
+    let entries: Vec<Entry> = exits.into_iter().chain(faults).filter(asked).collect();
+    if entries.is_empty() {
+        terminal.error(&format!("error: no such code: {}; cpdmp explain lists all\n", code.unwrap_or_default()));
+        return Outcome::Usage;
+    }
+    match terminal.format {
+        Format::Json => entries.iter().for_each(|entry| terminal.json(entry)),
+        Format::Human => terminal.result(&table(&entries, code.is_none())),
+    }
+    Outcome::Passed
+}
+
+fn table(entries: &[Entry], all: bool) -> String {
+    let mut text = String::new();
+    let (exits, faults): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.exit_code.is_some());
+    if !exits.is_empty() {
+        text += "Exit codes (of several, the worst outcome counts; 128 + n when signal n ended the program)\n";
+        text.extend(exits.iter().map(|entry| format!("{:>4}  {:<18} {}\n", entry.exit_code.unwrap_or_default(), entry.name, entry.meaning)));
+    }
+    if !faults.is_empty() {
+        text += if all { "\nFaults of scenario files (all lead to exit code 3)\n" } else { "Fault of a scenario file (exit code 3)\n" };
+        text.extend(faults.iter().map(|entry| format!("      {:<18} {}\n", entry.name, entry.meaning)));
+    }
+    text
+}

@@ -1,0 +1,68 @@
+//! The files of a run: report, manifest and resolved scenario always, what was learned and recorded if the run came that far.
+
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use super::judged_run::JudgedRun;
+use crate::recording;
+use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file};
+use crate::scenario::Scenario;
+use crate::simulation::{DemonstrationSource, RunOutcome};
+
+/// Writes everything into the folder. A recording that cannot be written is told in the report, which is written all the same.
+pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<(), OutputError> {
+    if let Some(left) = &run.left {
+        let failures = recordings(left, scenario, folder.staging());
+        if !failures.is_empty() {
+            run.report.end_as(run.report.outcome.max(Outcome::OutputFailed));
+            run.report.warnings.extend(failures.into_iter().map(|failure| format!("not written: {failure}")));
+        }
+    }
+    folder.write("scenario.toml", &scenario.resolved)?;
+    folder.write("manifest.json", &manifest(run, scenario, started).to_json())?;
+    folder.write("report.json", &run.report.to_json())
+}
+
+/// What can only be written after a whole run. Returns what could not be written.
+fn recordings(left: &RunOutcome, scenario: &Scenario, folder: &Path) -> Vec<String> {
+    let plan = scenario.recording;
+    let mut failures = Vec::new();
+    if plan.demonstrations {
+        failures.extend(left.dataset.write(&folder.join("demonstrations")).err().map(|error| error.to_string()));
+    }
+    failures.extend(left.skill.write(&folder.join("skill.json")).err().map(|error| error.to_string()));
+    if plan.steps {
+        failures.extend(recording::write_step_log(&folder.join("steps.parquet"), left).err().map(|error| error.to_string()));
+    }
+    #[cfg(feature = "rerun")]
+    if plan.rrd {
+        let written = recording::write_recording(&folder.join("recording.rrd"), &scenario.experiment, left);
+        failures.extend(written.err().map(|error| error.to_string()));
+    }
+    failures
+}
+
+fn manifest(run: &JudgedRun, scenario: &Scenario, started: SystemTime) -> Manifest {
+    Manifest {
+        command: std::env::args().collect(),
+        directory: std::env::current_dir().ok(),
+        started_unix_s: started.duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs()),
+        inputs: inputs(scenario).iter().map(|path| hash_file(path)).collect(),
+        ..Manifest::new(&run.report)
+    }
+}
+
+/// The files that decide a run: the scenario with what it extends, the robot, the dataset.
+fn inputs(scenario: &Scenario) -> Vec<PathBuf> {
+    let mut files = scenario.files.clone();
+    files.extend(scenario.experiment.robot.urdf.clone());
+    if let DemonstrationSource::Dataset(folder) = &scenario.experiment.demonstrations {
+        let mut of_dataset: Vec<PathBuf> = match std::fs::read_dir(folder) {
+            Ok(entries) => entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect(),
+            Err(_) => vec![folder.clone()],
+        };
+        of_dataset.sort();
+        files.extend(of_dataset);
+    }
+    files
+}

@@ -1,0 +1,44 @@
+//! `cpdmp list`: the scenarios that are there.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::args::{Format, Global};
+use super::load::options;
+use super::select::select;
+use super::terminal::Terminal;
+use crate::report::Outcome;
+use crate::scenario::Scenario;
+
+/// What other programs read about one scenario.
+#[derive(Serialize)]
+struct Listed<'a> {
+    path: &'a Path,
+    valid: bool,
+    name: Option<String>,
+    description: Option<String>,
+}
+
+/// Lists scenarios with what each shows. One that cannot be used is listed as such and is no failure of this command.
+pub(super) fn list(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Outcome {
+    let files = match select(paths, terminal) {
+        Ok(files) => files,
+        Err(outcome) => return outcome,
+    };
+    let options = options(global);
+    let width = files.iter().map(|file| file.display().to_string().chars().count()).max().unwrap_or(0);
+    for path in &files {
+        let loaded = Scenario::load(path, &options);
+        match (terminal.format, loaded) {
+            (Format::Json, Ok(scenario)) => {
+                let (name, description) = (Some(scenario.experiment.name), Some(scenario.description));
+                terminal.json(&Listed { path, valid: true, name, description });
+            }
+            (Format::Json, Err(_)) => terminal.json(&Listed { path, valid: false, name: None, description: None }),
+            (Format::Human, Ok(scenario)) => terminal.result(&format!("{:<width$}  {}\n", path.display(), scenario.description)),
+            (Format::Human, Err(_)) => terminal.result(&format!("{:<width$}  cannot be used: see cpdmp validate\n", path.display())),
+        }
+    }
+    Outcome::Passed
+}

@@ -1,0 +1,65 @@
+//! The terminal: arguments, progress, results, exit codes. One file per command.
+//!
+//! Results go to stdout, progress and complaints to stderr. What a command finds ends in an [`Outcome`], which is its exit code. A closed
+//! pipe is no error, and a panic is a bug that is reported as one.
+
+mod args;
+mod explain;
+mod files;
+mod judged_run;
+mod list;
+mod load;
+mod progress;
+mod run;
+mod select;
+mod terminal;
+mod validate;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use self::args::{Cli, Command};
+use self::terminal::Terminal;
+use crate::report::Outcome;
+
+/// The whole program: reads the command line, does what it says, and returns the exit code.
+pub fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(report_bug));
+    let outcome = std::panic::catch_unwind(|| match Cli::try_parse() {
+        Ok(cli) => dispatch(&cli),
+        Err(error) => told_by_clap(&error),
+    });
+    ExitCode::from(outcome.unwrap_or(Outcome::InternalError).exit_code())
+}
+
+fn dispatch(cli: &Cli) -> Outcome {
+    let terminal = Terminal::new(&cli.global);
+    if let Some(jobs) = cli.global.jobs {
+        // Fails only when the pool is there already, and then nobody has asked for another size.
+        _ = rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global();
+    }
+    let outcome = match &cli.command {
+        Command::Run(arguments) => run::run(&arguments.paths, &cli.global, &terminal),
+        Command::Validate(arguments) => validate::validate(&arguments.paths, &cli.global, &terminal),
+        Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
+        Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),
+    };
+    outcome.max(terminal.outcome())
+}
+
+/// Help and version are results; everything else is a command line that makes no sense.
+fn told_by_clap(error: &clap::Error) -> Outcome {
+    // A closed pipe is no error here either.
+    _ = error.print();
+    if error.use_stderr() { Outcome::Usage } else { Outcome::Passed }
+}
+
+fn report_bug(panic: &std::panic::PanicHookInfo<'_>) {
+    let what = panic.payload_as_str().unwrap_or("no message");
+    let place = panic.location().map_or(String::new(), |location| format!(" ({}:{})", location.file(), location.line()));
+    terminal::complain(&format!(
+        "cpdmp {}: internal error: {what}{place}\nThis is a bug in the program. Please report it with the command and the scenario.\n",
+        env!("CARGO_PKG_VERSION")
+    ));
+}

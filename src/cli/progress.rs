@@ -1,0 +1,65 @@
+//! Where a run is: a bar on a terminal, lines in a log.
+
+use std::sync::{Mutex, PoisonError};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::terminal::Terminal;
+use crate::simulation::Progress;
+
+/// Shows the progress of one run on stderr.
+pub(super) struct Shown<'a> {
+    terminal: &'a Terminal,
+    bar: Mutex<Option<ProgressBar>>,
+}
+
+impl<'a> Shown<'a> {
+    pub fn new(terminal: &'a Terminal) -> Self {
+        Self { terminal, bar: Mutex::new(None) }
+    }
+
+    fn current(&self) -> Option<ProgressBar> {
+        self.bar.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn replace(&self, bar: Option<ProgressBar>) {
+        let before = std::mem::replace(&mut *self.bar.lock().unwrap_or_else(PoisonError::into_inner), bar);
+        if let Some(before) = before {
+            before.finish_and_clear();
+        }
+    }
+}
+
+impl Progress for Shown<'_> {
+    fn phase(&self, name: &str, steps: u64) {
+        if self.terminal.bars {
+            let bar = if steps == 0 { ProgressBar::new_spinner() } else { ProgressBar::new(steps) };
+            let template = if steps == 0 { "{prefix:>8}  {spinner} {elapsed}" } else { "{prefix:>8}  {bar:40} {percent:>3} %  {eta} left" };
+            if let Ok(style) = ProgressStyle::with_template(template) {
+                bar.set_style(style.progress_chars("##-"));
+            }
+            bar.set_prefix(name.to_owned());
+            bar.enable_steady_tick(std::time::Duration::from_millis(200));
+            self.replace(Some(bar));
+        }
+    }
+
+    fn advance(&self, steps: u64) {
+        if let Some(bar) = self.current() {
+            bar.inc(steps);
+        }
+    }
+
+    fn note(&self, text: &str) {
+        match self.current() {
+            Some(bar) => bar.suspend(|| self.terminal.note(&format!("{text}\n"))),
+            None => self.terminal.note(&format!("{text}\n")),
+        }
+    }
+}
+
+impl Drop for Shown<'_> {
+    fn drop(&mut self) {
+        self.replace(None);
+    }
+}

@@ -1,0 +1,84 @@
+//! `cpdmp run`: the main job, one scenario after the other.
+
+use std::path::{Path, PathBuf};
+
+use super::args::{Format, Global};
+use super::files;
+use super::judged_run::judged_run;
+use super::load::{Ready, load_all};
+use super::progress::Shown;
+use super::select::select;
+use super::terminal::Terminal;
+use crate::report::{Outcome, RunFolder, text};
+use crate::simulation::Experiment;
+
+/// Runs every scenario; all are checked before the first one begins. The worst outcome counts.
+pub(super) fn run(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Outcome {
+    let ready = match select(paths, terminal).and_then(|files| load_all(&files, global, terminal)) {
+        Ok(ready) => ready,
+        Err(outcome) => return outcome,
+    };
+    let folders: Vec<PathBuf> = ready.iter().map(|one| folder(global.out.as_deref(), ready.len(), &one.scenario.experiment)).collect();
+    if let Some(index) = (1..folders.len()).find(|&index| folders[..index].contains(&folders[index])) {
+        let (path, folder) = (ready[index].path.display(), folders[index].display());
+        terminal.error(&format!("error: {path} would write to {folder}, as another of these scenarios does: give it a name or seed of its own\n"));
+        return Outcome::Usage;
+    }
+    let outcomes = ready.iter().zip(&folders).map(|(one, folder)| run_one(one, folder, global, terminal));
+    outcomes.max().unwrap_or(Outcome::NothingSelected)
+}
+
+fn folder(out: Option<&Path>, scenarios: usize, experiment: &Experiment) -> PathBuf {
+    let own = format!("{}-{}", experiment.name, experiment.seed);
+    match out {
+        Some(out) if scenarios == 1 => out.to_path_buf(),
+        Some(out) => out.join(own),
+        None => Path::new("runs").join(own),
+    }
+}
+
+fn run_one(ready: &Ready, target: &Path, global: &Global, terminal: &Terminal) -> Outcome {
+    // Whether the output can be written is known before a minute is spent on it.
+    let folder = match RunFolder::open(target) {
+        Ok(folder) => folder,
+        Err(error) => {
+            terminal.error(&format!("error: {error}\n"));
+            return error.outcome();
+        }
+    };
+    let started = std::time::SystemTime::now();
+    terminal.note(&format!("{}: {}\n", ready.scenario.experiment.name, ready.path.display()));
+    let progress = Shown::new(terminal);
+    let mut run = judged_run(&ready.scenario, &progress);
+    if !run.wants_folder() {
+        drop(progress);
+        terminal.error(&format!("error: {}\n", run.report.error.as_deref().unwrap_or_default()));
+        return run.report.outcome;
+    }
+    let written = files::write(&mut run, &ready.scenario, &folder, started).and_then(|()| folder.finish());
+    drop(progress);
+    match terminal.format {
+        Format::Human => terminal.result(&text(&run.report)),
+        Format::Json => terminal.result(&(run.report.to_json_line() + "\n")),
+    }
+    tell_warnings(&run.report.warnings, global, terminal);
+    match written {
+        Ok(place) => {
+            terminal.note(&format!("written to {}\n", place.display()));
+            run.report.outcome
+        }
+        Err(error) => {
+            terminal.error(&format!("error: {error}\n"));
+            run.report.outcome.max(error.outcome())
+        }
+    }
+}
+
+fn tell_warnings(warnings: &[String], global: &Global, terminal: &Terminal) {
+    match warnings {
+        [] => {}
+        _ if global.verbose > 0 => terminal.note(&format!("{}\n", warnings.join("\n"))),
+        [warning] => terminal.note(&format!("{warning}\n")),
+        _ => terminal.note(&format!("{} warnings: see report.json, or -v\n", warnings.len())),
+    }
+}

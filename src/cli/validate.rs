@@ -1,0 +1,102 @@
+//! `cpdmp validate`: everything that can be said about a scenario without simulating it.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::args::{Format, Global};
+use super::judged_run::outcome_of;
+use super::load::options;
+use super::select::select;
+use super::terminal::Terminal;
+use crate::demonstration::Dataset;
+use crate::report::Outcome;
+use crate::scenario::{Diagnostic, Scenario};
+use crate::simulation::{DemonstrationSource, Setup, SimulationError};
+
+/// What is known about one scenario.
+#[derive(Serialize)]
+struct Checked<'a> {
+    path: &'a Path,
+    outcome: Outcome,
+    exit_code: u8,
+    scenario: Option<String>,
+    /// Faults and warnings of the scenario file.
+    diagnostics: Vec<Diagnostic>,
+    /// Why the robot or the dataset cannot be used.
+    error: Option<String>,
+    /// What is odd about the robot's file.
+    warnings: Vec<String>,
+}
+
+/// Checks every scenario, its robot and its dataset.
+pub(super) fn validate(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Outcome {
+    let files = match select(paths, terminal) {
+        Ok(files) => files,
+        Err(outcome) => return outcome,
+    };
+    let options = options(global);
+    let check = |path: &PathBuf| {
+        let checked = checked(path, Scenario::load(path, &options).map_err(|invalid| invalid.0));
+        tell(&checked, global, terminal);
+        checked.outcome
+    };
+    files.iter().map(check).max().unwrap_or(Outcome::NothingSelected)
+}
+
+fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_> {
+    let failed = Outcome::InvalidInput;
+    let mut checked = Checked {
+        path,
+        outcome: failed,
+        exit_code: failed.exit_code(),
+        scenario: None,
+        diagnostics: Vec::new(),
+        error: None,
+        warnings: Vec::new(),
+    };
+    match loaded {
+        Err(diagnostics) => checked.diagnostics = diagnostics,
+        Ok(scenario) => {
+            let found = beyond_the_file(&scenario);
+            checked.outcome = found.as_ref().map_or_else(outcome_of, |_| Outcome::Passed);
+            checked.exit_code = checked.outcome.exit_code();
+            checked.scenario = Some(scenario.experiment.name);
+            checked.diagnostics = scenario.warnings;
+            match found {
+                Ok(warnings) => checked.warnings = warnings,
+                Err(error) => checked.error = Some(error.to_string()),
+            }
+        }
+    }
+    checked
+}
+
+/// Loads the robot and the dataset that the scenario names; what is odd about the robot.
+fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, SimulationError> {
+    let setup = Setup::new(&scenario.experiment)?;
+    if let DemonstrationSource::Dataset(folder) = &scenario.experiment.demonstrations {
+        Dataset::read(folder)?;
+    }
+    Ok(setup.warnings.iter().map(ToString::to_string).collect())
+}
+
+fn tell(checked: &Checked<'_>, global: &Global, terminal: &Terminal) {
+    if terminal.format == Format::Json {
+        return terminal.json(checked);
+    }
+    terminal.faults(&checked.diagnostics);
+    if let Some(error) = &checked.error {
+        terminal.error(&format!("error: {error}\n"));
+    }
+    if global.verbose > 0 && !checked.warnings.is_empty() {
+        terminal.note(&(checked.warnings.join("\n") + "\n"));
+    }
+    let faults = checked.diagnostics.len() + usize::from(checked.error.is_some());
+    let verdict = match (checked.outcome, faults) {
+        (Outcome::Passed, _) => "ok".to_owned(),
+        (_, 1) => "1 fault".to_owned(),
+        (_, count) => format!("{count} faults"),
+    };
+    terminal.result(&format!("{}: {verdict}\n", checked.path.display()));
+}

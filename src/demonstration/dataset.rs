@@ -1,0 +1,107 @@
+//! Demonstrations of one skill, with the parameters they were given under.
+
+use super::{DemonstrationError, Fault, Trajectory};
+
+/// Named task parameters, e.g. `block_height_m = 0.17`, sorted by name.
+pub type Parameters = Vec<(String, f64)>;
+
+/// One demonstration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Demonstration {
+    /// Its name, which is its file's name without extension.
+    pub name: String,
+    /// What was recorded: motion, wrench, orientation, gripper.
+    pub trajectory: Trajectory,
+    /// Parameters of the motion model (`theta_m`).
+    pub theta_m: Parameters,
+    /// Parameters of the force model (`theta_f`).
+    pub theta_f: Parameters,
+}
+
+/// Several demonstrations of one skill, and which columns its models learn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dataset {
+    /// Columns of the motion model (1 to 32).
+    pub motion: Vec<String>,
+    /// Columns of the force model; may be empty.
+    pub wrench: Vec<String>,
+    /// The demonstrations, at least one.
+    pub demonstrations: Vec<Demonstration>,
+}
+
+impl Dataset {
+    /// Checks what single trajectories cannot know: that all demonstrations have the columns and the same parameters.
+    ///
+    /// # Errors
+    /// All faults at once; each names the demonstration.
+    pub fn check(&self) -> Result<(), DemonstrationError> {
+        let mut faults = self.column_faults();
+        if self.demonstrations.is_empty() {
+            faults.push(Fault::new("dataset.toml", "no demonstration", "at least one [[demonstration]]"));
+        }
+        for demonstration in &self.demonstrations {
+            faults.extend(self.demonstration_faults(demonstration));
+        }
+        if faults.is_empty() { Ok(()) } else { Err(DemonstrationError::Invalid(faults)) }
+    }
+
+    /// Names of the motion model's parameters.
+    #[must_use]
+    pub fn parameters_m(&self) -> Vec<String> {
+        names(self.demonstrations.first().map_or(&[], |d| &d.theta_m))
+    }
+
+    /// Names of the force model's parameters.
+    #[must_use]
+    pub fn parameters_f(&self) -> Vec<String> {
+        names(self.demonstrations.first().map_or(&[], |d| &d.theta_f))
+    }
+
+    fn column_faults(&self) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        if !(1..=32).contains(&self.motion.len()) {
+            faults.push(Fault::new("motion", format!("{} columns", self.motion.len()), "1 to 32 columns for the motion model"));
+        }
+        for (key, list) in [("motion", &self.motion), ("wrench", &self.wrench)] {
+            for (i, name) in list.iter().enumerate() {
+                if list[..i].contains(name) {
+                    faults.push(Fault::new(key, format!("{name} twice"), "every column once"));
+                }
+                if let Some(unit) = ["_mm", "_cm", "_deg", "_ms"].iter().find(|unit| name.ends_with(**unit)) {
+                    let found = format!("{name}, in {}", &unit[1..]);
+                    faults.push(Fault::new(key, found, "SI units: _m, _rad, _n, _nm, _s"));
+                }
+            }
+        }
+        faults
+    }
+
+    fn demonstration_faults(&self, demonstration: &Demonstration) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for (key, list) in [("motion", &self.motion), ("wrench", &self.wrench)] {
+            for name in list.iter().filter(|name| demonstration.trajectory.column_index(name).is_none()) {
+                let found = format!("no such column, though {key} lists it");
+                let expected = format!("one of {}", demonstration.trajectory.columns().join(", "));
+                faults.push(Fault::new(&demonstration.name, found, expected).in_column(name));
+            }
+        }
+        let first = &self.demonstrations[0];
+        for (key, theta, reference) in
+            [("theta_m", &demonstration.theta_m, &first.theta_m), ("theta_f", &demonstration.theta_f, &first.theta_f)]
+        {
+            if names(theta) != names(reference) {
+                let found = format!("{key} with [{}]", names(theta).join(", "));
+                let expected = format!("[{}], sorted, as in {}", names(reference).join(", "), first.name);
+                faults.push(Fault::new(&demonstration.name, found, expected));
+            }
+            for (name, value) in theta.iter().filter(|(_, value)| !value.is_finite()) {
+                faults.push(Fault::new(&demonstration.name, format!("{key}.{name} = {value}"), "a finite number"));
+            }
+        }
+        faults
+    }
+}
+
+fn names(theta: &[(String, f64)]) -> Vec<String> {
+    theta.iter().map(|(name, _)| name.clone()).collect()
+}

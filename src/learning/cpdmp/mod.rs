@@ -1,0 +1,24 @@
+//! Compliant parametric dynamic movement primitives: the primitive whose forcing term is a parametric hidden Markov model and whose
+//! states say where to yield.
+//!
+//! ```text
+//! tau vdot = K (g - x) - D v - K (g - x0) s + K f(theta_m, s) + zeta(theta_f, s)                             (16)
+//! zeta = beta K C (F - F_des(theta_f, s))                                                                    (17)
+//! beta_i = -1 if any |B_i^jk| > sigma for two axes j, k, else 0                                              (20)
+//! ```
+
+mod compliance;
+mod force_coupling;
+mod force_model;
+mod motion_model;
+mod segments;
+mod shaping_function;
+
+pub use compliance::{Compliance, ComplianceSettings, Statistic, Threshold};
+pub(super) use compliance::state_spreads;
+pub use force_coupling::{CouplingSettings, ForceConvention, ForceCoupling, Switching};
+pub use force_model::ForceModel;
+pub use motion_model::{MotionModel, Shaping};
+pub(super) use motion_model::spatial_columns;
+pub use segments::{ComplianceWindow, Segment, compliance_windows, segments};
+pub use shaping_function::ShapingFunction;

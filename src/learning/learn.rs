@@ -1,0 +1,143 @@
+//! From a dataset to a skill.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
+use super::dmp::Lwr;
+use super::orientation::OrientationSample;
+use super::phmm::{Fit, Sequence, fit};
+use super::prepare::{Prepared, prepare};
+use super::{
+    GripperProfile, LearningError, LearningReport, LearningSettings, LinearMap, OrientationProfile, ParameterSpace, ShapingKind, Skill,
+    warnings,
+};
+use crate::demonstration::Dataset;
+
+/// A skill and how it came about.
+#[derive(Debug, Clone)]
+pub struct Learned {
+    /// The skill.
+    pub skill: Skill,
+    /// How it came about.
+    pub report: LearningReport,
+}
+
+/// Learns a skill from a dataset. The same dataset, settings and seed give the same bits, on any number of threads.
+///
+/// # Errors
+/// When settings are outside their ranges, the dataset is not usable, or there are too few samples.
+pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Result<Learned, LearningError> {
+    settings.check()?;
+    dataset.check()?;
+    let prepared = prepare(dataset, settings)?;
+    let mut warnings = warnings::about_data(dataset, &prepared);
+    let (motion, force) =
+        rayon::join(|| motion_fit(dataset, &prepared, settings, seed), || force_fit(dataset, &prepared, settings, seed));
+    let ((shaping, motion_fit, compliance), force) = (motion?, force?);
+    let motion = motion_model(dataset, &prepared, settings, shaping)?;
+    let (force, force_fit) = force.map_or((None, None), |(model, fit)| (Some(model), Some(fit)));
+    let orientation = orientation_profile(&prepared, settings)?;
+    let gripper = gripper_profile(&prepared, &mut warnings);
+    let fits = [("motion", &motion_fit), ("force", &force_fit)];
+    let histories = fits.iter().filter_map(|(name, fit)| Some(((*name).to_owned(), fit.as_ref()?.history.clone()))).collect();
+    let provenance = vec![
+        ("demonstrations".to_owned(), dataset.demonstrations.len().to_string()),
+        ("seed".to_owned(), seed.to_string()),
+        ("program".to_owned(), format!("cpdmp {}", env!("CARGO_PKG_VERSION"))),
+    ];
+    let skill = Skill { motion, force, compliance, orientation, gripper, provenance, histories };
+    skill.check()?;
+    let noise = forcing_noise(&prepared);
+    let fits = [("motion", motion_fit.as_ref()), ("force", force_fit.as_ref())];
+    warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max()));
+    let theta = prepared.iter().map(|p| &p.theta_m).sum::<DVector<f64>>() / prepared.len() as f64;
+    let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), noise.iter().copied().collect(), warnings)?;
+    Ok(Learned { skill, report })
+}
+
+type MotionFit = (Shaping, Option<Fit>, Compliance);
+
+fn motion_fit(dataset: &Dataset, prepared: &[Prepared], settings: &LearningSettings, seed: u64) -> Result<MotionFit, LearningError> {
+    let d = dataset.motion.len();
+    if settings.shaping == ShapingKind::Lwr {
+        let phases: Vec<f64> = prepared.iter().flat_map(|p| p.fractions.iter().map(|u| (-settings.alpha * u).exp())).collect();
+        let all: Vec<_> = prepared.iter().flat_map(|p| p.forcing.row_iter()).collect();
+        let lwr = Lwr::fit(&phases, &DMatrix::from_rows(&all), settings.lwr_basis, settings.alpha)?;
+        return Ok((Shaping::Lwr(lwr), None, Compliance::stiff(0, d)));
+    }
+    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(settings)).collect();
+    let fit = fit(&sequences, &settings.motion, seed)?;
+    let noise = forcing_noise(prepared).max();
+    let spreads = state_spreads(&fit.model, &sequences)?;
+    let compliance = Compliance::decide(spreads, &spatial_columns(&dataset.motion), &settings.compliance, noise);
+    Ok((Shaping::Phmm(fit.model.clone()), Some(fit), compliance))
+}
+
+fn force_fit(
+    dataset: &Dataset,
+    prepared: &[Prepared],
+    settings: &LearningSettings,
+    seed: u64,
+) -> Result<Option<(ForceModel, Fit)>, LearningError> {
+    if dataset.wrench.is_empty() || settings.shaping == ShapingKind::Lwr {
+        return Ok(None);
+    }
+    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.force_sequence(settings)).collect();
+    let fit = fit(&sequences, &settings.force, seed)?;
+    let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_f.clone()).collect();
+    let model = ForceModel {
+        columns: dataset.wrench.clone(),
+        parameters: ParameterSpace::of(dataset.parameters_f(), &thetas),
+        phase_input: settings.phase_input,
+        phmm: fit.model.clone(),
+    };
+    Ok(Some((model, fit)))
+}
+
+fn motion_model(
+    dataset: &Dataset,
+    prepared: &[Prepared],
+    settings: &LearningSettings,
+    shaping: Shaping,
+) -> Result<MotionModel, LearningError> {
+    let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_m.clone()).collect();
+    let blind = settings.shaping == ShapingKind::Lwr;
+    let ends = |values: Vec<DVector<f64>>| -> Result<LinearMap, LearningError> {
+        let p = thetas[0].len();
+        let mean = values.iter().sum::<DVector<f64>>() / values.len() as f64;
+        if blind { Ok(LinearMap::constant(mean, p)) } else { LinearMap::fit(&thetas, &values) }
+    };
+    Ok(MotionModel {
+        stiffness: settings.stiffness,
+        duration_s: prepared.iter().map(|p| p.duration_s).sum::<f64>() / prepared.len() as f64,
+        alpha: settings.alpha,
+        phase_input: settings.phase_input,
+        gate_start: settings.gate_start,
+        columns: dataset.motion.clone(),
+        start: ends(prepared.iter().map(|p| p.start.clone()).collect())?,
+        goal: ends(prepared.iter().map(|p| p.goal.clone()).collect())?,
+        parameters: ParameterSpace::of(dataset.parameters_m(), &thetas),
+        shaping,
+    })
+}
+
+fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Result<Option<OrientationProfile>, LearningError> {
+    let sample = |p| -> Option<OrientationSample> {
+        let p: &Prepared = p;
+        Some(OrientationSample { fractions: &p.fractions, orientations: p.trajectory.orientations()?, theta: &p.theta_m })
+    };
+    let Some(samples) = prepared.iter().map(sample).collect::<Option<Vec<_>>>() else { return Ok(None) };
+    OrientationProfile::fit(&samples, settings.orientation_basis, settings.motion.ridge).map(Some)
+}
+
+fn gripper_profile(prepared: &[Prepared], warnings: &mut Vec<String>) -> Option<GripperProfile> {
+    let openings = prepared.iter().map(|p| Some(p.trajectory.gripper()?.iter().copied().collect()));
+    let (profile, warning) = GripperProfile::fit(&openings.collect::<Option<Vec<Vec<f64>>>>()?);
+    warnings.extend(warning);
+    Some(profile)
+}
+
+/// Mean estimated variance of sensor noise in the forcing term, per column.
+fn forcing_noise(prepared: &[Prepared]) -> DVector<f64> {
+    prepared.iter().map(|p| &p.noise).sum::<DVector<f64>>() / prepared.len() as f64
+}

@@ -1,0 +1,46 @@
+//! Quantities that depend linearly on the parameters, such as the start and the goal of a movement.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::LearningError;
+use crate::math::solve_weighted;
+
+/// `y(theta) = weights theta + mean`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinearMap {
+    /// (d x p).
+    pub weights: DMatrix<f64>,
+    /// The value at `theta = 0` (d).
+    pub mean: DVector<f64>,
+}
+
+impl LinearMap {
+    /// The least-squares map through one value (d) per parameter vector (p); parameters without effect or spread get no weight.
+    ///
+    /// # Errors
+    /// When the numbers of values and parameter vectors disagree or there are none.
+    pub fn fit(thetas: &[DVector<f64>], values: &[DVector<f64>]) -> Result<Self, LearningError> {
+        let (Some(theta), Some(value)) = (thetas.first(), values.first()) else {
+            return Err(LearningError::Data("no demonstration".to_owned()));
+        };
+        let (k, p, d) = (thetas.len(), theta.len(), value.len());
+        let mean_theta = thetas.iter().sum::<DVector<f64>>() / k as f64;
+        let mean_value = values.iter().sum::<DVector<f64>>() / values.len() as f64;
+        let regressors = DMatrix::from_fn(k, p, |i, j| thetas[i][j] - mean_theta[j]);
+        let targets = DMatrix::from_fn(values.len(), d, |i, j| values[i][j] - mean_value[j]);
+        let weights = solve_weighted(&regressors, &targets, &DVector::from_element(k, 1.0))?.solution.transpose();
+        Ok(Self { mean: mean_value - &weights * mean_theta, weights })
+    }
+
+    /// The same value for all parameters (p of them).
+    #[must_use]
+    pub fn constant(value: DVector<f64>, parameters: usize) -> Self {
+        Self { weights: DMatrix::zeros(value.len(), parameters), mean: value }
+    }
+
+    /// The value (d) at `theta` (p).
+    #[must_use]
+    pub fn at(&self, theta: &DVector<f64>) -> DVector<f64> {
+        &self.mean + &self.weights * theta
+    }
+}

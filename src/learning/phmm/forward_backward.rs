@@ -1,0 +1,131 @@
+//! Which state made which sample: the forward and backward recursions.
+//!
+//! ```text
+//! alpha_t(j) = b_j(x_t) sum_i alpha_{t-1}(i) a_ij             beta_t(i) = sum_j a_ij b_j(x_{t+1}) beta_{t+1}(j)
+//! gamma_t(i) = alpha_t(i) beta_t(i) / sum_j alpha_t(j) beta_t(j)
+//! xi_t(i, j) = gamma_t(i) a_ij b_j(x_{t+1}) beta_{t+1}(j) / beta_t(i)
+//! ```
+//!
+//! Densities come as logarithms, and the recursions exist twice. [`log_recursion`](super::log_recursion) keeps logarithms throughout and
+//! is right for any data. The one here takes the largest density of each sample out (`b~ = b / max b <= 1`), normalises `alpha` at every
+//! step, and needs no logarithm per state. Values below [`NOTHING`] become 0, and what is lost by that is bounded: a path through a state
+//! with normalised `alpha_t(i) < 1e-290` contributes at most `1e-290 prod_{s<=t} c_s` to the likelihood `prod_s c_s`, because `b~ <= 1`
+//! makes `beta~ <= 1`. So as long as the product of all `c_s` stays above [`SMALLEST_SCALED_LIKELIHOOD`], less than 1e-30 of the likelihood
+//! is lost; where it does not, the logarithms take over.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::emission::log_densities;
+use super::{Phmm, Sequence};
+
+/// Smaller scaled values are set to 0: arithmetic with almost-underflown numbers is many times slower.
+const NOTHING: f64 = 1e-290;
+
+/// `ln 1e-256`: see the module's text.
+const SMALLEST_SCALED_LIKELIHOOD: f64 = -589.0;
+
+/// The result of the expectation step for one sequence.
+#[derive(Debug, Clone)]
+pub struct Expectation {
+    /// Log-likelihood of the sequence.
+    pub log_likelihood: f64,
+    /// `gamma`: probability of each state at each sample, row by row (T x N).
+    pub responsibilities: Vec<f64>,
+    /// `sum_t xi_t`: expected number of transitions (N x N).
+    pub transitions: DMatrix<f64>,
+}
+
+/// Runs the expectation step for one sequence. `None` when a covariance is not positive definite.
+#[must_use]
+pub fn expect(model: &Phmm, sequence: &Sequence) -> Option<Expectation> {
+    let log_b = log_densities(model, sequence)?;
+    let chain = Chain::new(&model.initial, &model.transition);
+    Some(chain.scaled(&log_b).unwrap_or_else(|| chain.in_logarithms(&log_b)))
+}
+
+/// The transitions that exist, by their end and by their start.
+pub(super) struct Chain {
+    pub(super) initial: Vec<f64>,
+    pub(super) into: Vec<Vec<(usize, f64)>>,
+    pub(super) out_of: Vec<Vec<(usize, f64)>>,
+}
+
+impl Chain {
+    pub(super) fn new(initial: &DVector<f64>, transition: &DMatrix<f64>) -> Self {
+        let n = initial.len();
+        let (mut into, mut out_of) = (vec![Vec::new(); n], vec![Vec::new(); n]);
+        for i in 0..n {
+            for j in (0..n).filter(|j| transition[(i, *j)] > 0.0) {
+                into[j].push((i, transition[(i, j)]));
+                out_of[i].push((j, transition[(i, j)]));
+            }
+        }
+        Self { initial: initial.iter().copied().collect(), into, out_of }
+    }
+
+    /// The recursions with scaling, from log densities (T x N); `None` when underflow could matter.
+    pub(super) fn scaled(&self, log_b: &[f64]) -> Option<Expectation> {
+        let n = self.initial.len();
+        let mut b = Vec::with_capacity(log_b.len());
+        let mut alpha = Vec::with_capacity(log_b.len());
+        let mut c = Vec::with_capacity(log_b.len() / n);
+        let (mut scaled_likelihood, mut shifts) = (0.0, 0.0);
+        for log_row in log_b.chunks_exact(n) {
+            let before = alpha.len();
+            shifts += push_shifted(log_row, &mut b);
+            for j in 0..n {
+                let arriving = match before {
+                    0 => self.initial[j],
+                    _ => self.into[j].iter().map(|(i, a)| a * alpha[before - n + i]).sum(),
+                };
+                alpha.push(b[before + j] * arriving);
+            }
+            let total: f64 = alpha[before..].iter().sum();
+            alpha[before..].iter_mut().for_each(|a| *a = something(*a / total));
+            scaled_likelihood += total.ln();
+            c.push(total);
+            if scaled_likelihood.is_nan() || scaled_likelihood < SMALLEST_SCALED_LIKELIHOOD {
+                return None;
+            }
+        }
+        let transitions = self.scaled_backward(&b, &c, &mut alpha);
+        Some(Expectation { log_likelihood: scaled_likelihood + shifts, responsibilities: alpha, transitions })
+    }
+
+    /// Turns normalised `alpha` into `gamma` (T x N) and sums `xi` (N x N).
+    fn scaled_backward(&self, b: &[f64], c: &[f64], alpha: &mut [f64]) -> DMatrix<f64> {
+        let n = self.initial.len();
+        let mut transitions = DMatrix::zeros(n, n);
+        let (mut beta, mut ahead) = (vec![1.0; n], vec![0.0; n]);
+        for t in (0..c.len().saturating_sub(1)).rev() {
+            for (a, (b, beta)) in ahead.iter_mut().zip(b[(t + 1) * n..(t + 2) * n].iter().zip(&beta)) {
+                *a = b * beta / c[t + 1];
+            }
+            for (i, gamma) in alpha[t * n..(t + 1) * n].iter_mut().enumerate() {
+                beta[i] = 0.0;
+                for (j, a) in &self.out_of[i] {
+                    let onward = a * ahead[*j];
+                    beta[i] += onward;
+                    transitions[(i, *j)] += *gamma * onward;
+                }
+                beta[i] = something(beta[i]);
+                *gamma *= beta[i];
+            }
+        }
+        transitions
+    }
+}
+
+/// The value, or 0 when it is [`NOTHING`].
+fn something(value: f64) -> f64 {
+    if value < NOTHING { 0.0 } else { value }
+}
+
+/// Appends `exp(x_i - max x)` and returns the shift. A row of `-inf` becomes not-a-number, which ends the scaled recursion.
+fn push_shifted(log_row: &[f64], b: &mut Vec<f64>) -> f64 {
+    /// `ln 1e-290`.
+    const NOTHING: f64 = -667.7;
+    let shift = log_row.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    b.extend(log_row.iter().map(|x| if x - shift < NOTHING { 0.0 } else { (x - shift).exp() }));
+    shift
+}

@@ -1,0 +1,143 @@
+//! A learned skill: everything needed to move, for any parameter, start, goal and duration.
+
+use nalgebra::DVector;
+
+use super::cpdmp::{Compliance, ComplianceWindow, ForceModel, MotionModel, compliance_windows, segments};
+use super::{GripperProfile, LearningError, OrientationProfile};
+
+/// A learned compliant parametric dynamic movement primitive.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Skill {
+    /// The movement.
+    pub motion: MotionModel,
+    /// The wrench expected along it, when demonstrations had one.
+    pub force: Option<ForceModel>,
+    /// Which of the motion model's states comply.
+    pub compliance: Compliance,
+    /// The orientation along the movement, when demonstrations had one.
+    pub orientation: Option<OrientationProfile>,
+    /// The gripper along the movement, when demonstrations had one.
+    pub gripper: Option<GripperProfile>,
+    /// Where the skill comes from: free text by key, sorted.
+    pub provenance: Vec<(String, String)>,
+    /// Log-likelihood (with log prior) per iteration of the models that were fitted, by name: `motion`, `force`.
+    pub histories: Vec<(String, Vec<f64>)>,
+}
+
+impl Skill {
+    /// The windows in which the movement yields, as time fractions, for parameters `theta_m`.
+    ///
+    /// # Errors
+    /// When parameters are missing or unknown.
+    pub fn compliance_windows(&self, theta_m: &[(String, f64)]) -> Result<Vec<ComplianceWindow>, LearningError> {
+        let theta = self.motion.parameters.resolve(theta_m)?;
+        let mut shaping = self.motion.shaping_at(&theta)?;
+        Ok(compliance_windows(&segments(&mut shaping), &self.compliance.beta))
+    }
+
+    /// How far parameters lie outside what was demonstrated, as a fraction of its range (-); see
+    /// [`super::ParameterSpace::extrapolation`].
+    ///
+    /// # Errors
+    /// When parameters are missing or unknown.
+    pub fn extrapolation(&self, theta_m: &[(String, f64)]) -> Result<f64, LearningError> {
+        Ok(self.motion.parameters.extrapolation(&self.motion.parameters.resolve(theta_m)?))
+    }
+
+    /// Checks that all parts fit together and hold usable numbers.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn check(&self) -> Result<(), LearningError> {
+        let wrong = |what: String| Err(LearningError::Skill(what));
+        let m = &self.motion;
+        let (d, p) = (m.columns.len(), m.parameters.names.len());
+        let scalars = [("stiffness", m.stiffness), ("duration_s", m.duration_s), ("alpha", m.alpha)];
+        if let Some((name, value)) = scalars.iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
+            return wrong(format!("motion.{name} is {value}, but must be positive"));
+        }
+        if !(0.0..1.0).contains(&m.gate_start) {
+            return wrong(format!("motion.gate_start is {}, but must be at least 0 and below 1", m.gate_start));
+        }
+        if d == 0 || m.parameters.ranges.len() != p {
+            return wrong(format!("motion has {d} columns, {p} parameters and {} parameter ranges", m.parameters.ranges.len()));
+        }
+        for (name, map) in [("start", &m.start), ("goal", &m.goal)] {
+            if map.mean.len() != d || map.weights.shape() != (d, p) {
+                return wrong(format!("motion.{name} is not over {d} columns and {p} parameters"));
+            }
+            if !finite(map.mean.iter().chain(map.weights.iter())) {
+                return wrong(format!("motion.{name} holds a number that is not finite"));
+            }
+        }
+        self.check_shaping(d, p)?;
+        self.check_profiles(p)?;
+        if let Some(force) = &self.force {
+            force.phmm.check()?;
+            let shape = (force.columns.len() + 1, force.parameters.names.len());
+            if (force.phmm.dimension(), force.phmm.parameters()) != shape || force.parameters.ranges.len() != shape.1 {
+                return wrong(format!("force.phmm is not over the phase, {} columns and {} parameters", shape.0 - 1, shape.1));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_shaping(&self, d: usize, p: usize) -> Result<(), LearningError> {
+        let wrong = |what: String| Err(LearningError::Skill(what));
+        match &self.motion.shaping {
+            super::cpdmp::Shaping::Phmm(phmm) => {
+                phmm.check()?;
+                if (phmm.dimension(), phmm.parameters()) != (d + 1, p) {
+                    return wrong(format!("motion.phmm is not over the phase, {d} columns and {p} parameters"));
+                }
+            }
+            super::cpdmp::Shaping::Lwr(lwr) => {
+                let m = lwr.centres.len();
+                let numbers = lwr.centres.iter().chain(lwr.widths.iter()).chain(lwr.weights.iter());
+                if m == 0 || lwr.widths.len() != m || lwr.weights.shape() != (m, d) || !finite(numbers) {
+                    return wrong(format!("motion.lwr is not over {d} columns with finite centres, widths and weights"));
+                }
+            }
+        }
+        let (n, c) = (self.motion.states(), &self.compliance);
+        let states = [c.values_m2.len(), c.beta.len(), c.between.len()];
+        if states.iter().any(|found| *found != n) || c.between.iter().any(|b| b.shape() != (d, d)) {
+            return wrong(format!("compliance is not over the {n} states and {d} columns of the motion"));
+        }
+        if !finite(c.values_m2.iter().chain(&c.beta).chain(c.between.iter().flat_map(|b| b.iter()))) || c.threshold_m2.is_nan() {
+            return wrong("compliance holds a number that is not finite".to_owned());
+        }
+        if let Some(beta) = c.beta.iter().find(|beta| **beta != 0.0 && **beta != -1.0) {
+            return wrong(format!("compliance.beta holds {beta}, but must be 0 (stiff) or -1 (complies)"));
+        }
+        Ok(())
+    }
+
+    fn check_profiles(&self, p: usize) -> Result<(), LearningError> {
+        let wrong = |what: &str| Err(LearningError::Skill(what.to_owned()));
+        if let Some(o) = &self.orientation {
+            let shape = (o.mean.nrows(), 3);
+            let shaped = shape.0 >= 2 && o.mean.shape() == shape && o.weights.len() == p && o.weights.iter().all(|w| w.shape() == shape);
+            let numbers = o.mean.iter().chain(o.weights.iter().flat_map(|w| w.iter()));
+            if !shaped || !finite(numbers) || !finite(o.reference.coords.iter()) {
+                return wrong("orientation is not a profile of finite rotation vectors for the motion's parameters");
+            }
+        }
+        if let Some(g) = &self.gripper
+            && (g.openings.len() < 2 || !finite(g.openings.iter()))
+        {
+            return wrong("gripper is not a list of at least two finite openings");
+        }
+        Ok(())
+    }
+
+    /// The start `x0` and goal `g` (d each) at `theta` (p).
+    #[must_use]
+    pub fn ends_at(&self, theta: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+        (self.motion.start.at(theta), self.motion.goal.at(theta))
+    }
+}
+
+fn finite<'a>(mut numbers: impl Iterator<Item = &'a f64>) -> bool {
+    numbers.all(|x| x.is_finite())
+}

@@ -1,0 +1,74 @@
+//! What a person should know about their data and the skill that came of it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::cpdmp::Compliance;
+use super::phmm::{Fit, FitStatus};
+use super::prepare::Prepared;
+use crate::demonstration::Dataset;
+use crate::math::{LeastSquares, solve_normal_equations};
+
+/// A gap in a recording counts as one from this length (s).
+const LONG_GAP_S: f64 = 0.5;
+/// Condition number of the parameters' correlations from which they count as collinear (-).
+const LARGE_CONDITION: f64 = 1e6;
+
+/// Parameters that say too little, and gaps in recordings.
+pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let thetas = |of: fn(&Prepared) -> &DVector<f64>| prepared.iter().map(of).collect::<Vec<_>>();
+    warnings.extend(about_parameters("theta_m", &dataset.parameters_m(), &thetas(|p| &p.theta_m)));
+    warnings.extend(about_parameters("theta_f", &dataset.parameters_f(), &thetas(|p| &p.theta_f)));
+    for (demonstration, p) in dataset.demonstrations.iter().zip(prepared) {
+        if p.largest_gap_s > LONG_GAP_S {
+            warnings.push(format!("{}: {:.2} s without a sample are bridged by a straight line", demonstration.name, p.largest_gap_s));
+        }
+    }
+    warnings
+}
+
+/// Rank and condition of the parameters over the demonstrations.
+fn about_parameters(kind: &str, names: &[String], thetas: &[&DVector<f64>]) -> Option<String> {
+    let (k, p) = (thetas.len() as f64, names.len());
+    if p == 0 {
+        return None;
+    }
+    let mean: DVector<f64> = thetas.iter().map(|theta| *theta / k).sum();
+    let mut scatter = DMatrix::zeros(p, p);
+    for theta in thetas {
+        // A parameter that varies by rounding only does not vary.
+        let off = DVector::from_fn(p, |j, _| if (theta[j] - mean[j]).abs() > 1e-9 * mean[j].abs() { theta[j] - mean[j] } else { 0.0 });
+        scatter.ger(1.0, &off, &off, 1.0);
+    }
+    let LeastSquares { rank, condition, .. } = solve_normal_equations(&scatter, &DMatrix::zeros(p, 0));
+    let listed = names.join(", ");
+    if rank < p {
+        return Some(format!("{kind} [{listed}]: the demonstrations vary {rank} of {p} parameters; the others have no effect"));
+    }
+    (condition > LARGE_CONDITION).then(|| format!("{kind} [{listed}]: nearly collinear over the demonstrations (condition {condition:.1e})"))
+}
+
+/// Fits that did not settle, and compliance that decides nothing.
+pub(super) fn about_models(fits: &[(&str, Option<&Fit>)], compliance: &Compliance, noise_m2: f64) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (name, fit) in fits {
+        let ended = match fit.map(|f| f.status) {
+            Some(FitStatus::IterationLimit) => "used all iterations without converging",
+            Some(FitStatus::Fell) => "stopped because its likelihood fell",
+            Some(FitStatus::Degenerate) => "stopped because a covariance collapsed",
+            Some(FitStatus::Converged) | None => continue,
+        };
+        warnings.push(format!("the {name} model {ended}"));
+    }
+    let complying = compliance.beta.iter().filter(|beta| **beta != 0.0).count();
+    let (states, sigma) = (compliance.beta.len(), compliance.threshold_m2);
+    if states > 0 && (complying == 0 || complying == states) {
+        let who = if complying == 0 { "no state" } else { "every state" };
+        let (least, most) = compliance.values_m2.iter().fold((f64::INFINITY, 0.0f64), |(a, b), v| (a.min(*v), b.max(*v)));
+        warnings.push(format!("{who} complies: values from {least:.1e} to {most:.1e} m^2, threshold {sigma:.1e} m^2"));
+    }
+    if states > 0 && sigma < noise_m2 {
+        warnings.push(format!("the compliance threshold {sigma:.1e} m^2 lies below the sensor noise in the forcing term, {noise_m2:.1e} m^2"));
+    }
+    warnings
+}

@@ -1,0 +1,38 @@
+//! Why a recording or a step log could not be written.
+
+use std::path::PathBuf;
+
+/// Why a recording or a step log could not be written. The run itself is not affected.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordingError {
+    /// The file system refused.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The Parquet writer failed.
+    #[error("{}: {source}", path.display())]
+    Parquet {
+        /// The file.
+        path: PathBuf,
+        /// What the writer said.
+        source: parquet::errors::ParquetError,
+    },
+    /// The rerun writer failed.
+    #[error("{}: {source}", path.display())]
+    Rerun {
+        /// The file.
+        path: PathBuf,
+        /// What the writer said.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// The file ends before its footer.
+    #[error("{}: the recording is not complete: its footer is missing; is the disk full?", path.display())]
+    Incomplete {
+        /// The file.
+        path: PathBuf,
+    },
+}

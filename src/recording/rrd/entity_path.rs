@@ -1,0 +1,92 @@
+//! The one list of what a recording holds: its timelines and its entities, by name and meaning.
+
+use rerun::{EntityPath, external::re_log_types::EntityPathPart};
+
+/// A timeline: what time means.
+#[derive(Clone, Copy, Debug)]
+pub struct Timeline {
+    /// Its name in the file.
+    pub name: &'static str,
+    /// What it counts.
+    pub meaning: &'static str,
+}
+
+/// Simulated time.
+pub const SIM_TIME: Timeline = Timeline { name: "sim_time", meaning: "simulated time since the start of the execution (ns)" };
+/// Engine steps.
+pub const STEP: Timeline = Timeline { name: "step", meaning: "number of the engine step since the start of the execution" };
+/// Phase.
+pub const PHASE: Timeline = Timeline { name: "phase", meaning: "elapsed fraction u = -ln(s)/alpha of the skill's duration, in ten-thousandths" };
+
+/// All timelines.
+pub const TIMELINES: [Timeline; 3] = [SIM_TIME, STEP, PHASE];
+
+/// A kind of entity: a path in which names in braces stand for one name each.
+#[derive(Clone, Copy, Debug)]
+pub struct Entity {
+    /// The path, e.g. `world/robot/{body}`.
+    pub pattern: &'static str,
+    /// What is logged there.
+    pub meaning: &'static str,
+}
+
+impl Entity {
+    /// The path with the braces filled by `names`, in order.
+    #[must_use]
+    pub fn of(&self, names: &[&str]) -> EntityPath {
+        let mut names = names.iter();
+        let part = |part: &str| if part.starts_with('{') { names.next().copied().unwrap_or(part).to_owned() } else { part.to_owned() };
+        EntityPath::new(self.pattern.split('/').map(part).map(EntityPathPart::new).collect())
+    }
+
+    /// The path of an entity that is one of a kind.
+    #[must_use]
+    pub fn path(&self) -> EntityPath {
+        self.of(&[])
+    }
+}
+
+macro_rules! entities {
+    ($($name:ident $pattern:literal $meaning:literal)+) => {
+        $(#[doc = concat!("`", $pattern, "`: ", $meaning, ".")] pub const $name: Entity = Entity { pattern: $pattern, meaning: $meaning };)+
+        /// All kinds of entities.
+        pub const ENTITIES: &[Entity] = &[$($name),+];
+    };
+}
+
+entities! {
+    WORLD "world" "the scene in the robot's base frame: x forward, y left, z up (m)"
+    ROBOT_BODY "world/robot/{body}" "pose of a robot body in the world, at every logged step if it ever moves"
+    ROBOT_SHAPE "world/robot/{body}/{shape}" "what the body looks like, in its frame"
+    OBJECT "world/objects/{object}" "pose of an object of the scene, at every logged step if it ever moves"
+    OBJECT_SHAPE "world/objects/{object}/{shape}" "what the object looks like, in its frame"
+    TAUGHT_PATH "world/paths/taught/{demonstration}" "path of the tool in a demonstration"
+    PLANNED_PATH "world/paths/planned" "path that the skill generates for this setting without any force"
+    EXECUTED_PATH "world/paths/executed" "path of the tool: at each step the piece since the step before; the view keeps them all"
+    TOOL "world/tool" "pose of the tool frame (grasp centre) at every logged step"
+    STATES "world/states" "Gaussians of the motion model's states in task space at two standard deviations, coloured by beta"
+    ACTIVE_STATE "world/active_state" "the Gaussian of the state that is active"
+    WRENCH_ARROW "world/forces/measured" "force of the environment on the tool as the controller estimates it"
+    EXPECTED_ARROW "world/forces/expected" "force that the force model expects"
+    PERSON_ARROW "world/forces/person" "force of the person on the arm, where it acts"
+    TAUGHT_MOTION "plots/motion/{axis}/taught/{demonstration}" "taught coordinate of the tool, its duration stretched to the skill's (m)"
+    PLANNED_MOTION "plots/motion/{axis}/planned" "generated coordinate of the tool (m)"
+    EXECUTED_MOTION "plots/motion/{axis}/executed" "coordinate of the tool (m)"
+    STATE_UPPER "plots/motion/{axis}/states/{state}/upper" "upper half of a state's ellipse over time at two standard deviations (m)"
+    STATE_LOWER "plots/motion/{axis}/states/{state}/lower" "lower half of the same ellipse (m)"
+    WRENCH "plots/force/{axis}/measured" "measured force on the tool along an axis (N)"
+    EXPECTED "plots/force/{axis}/expected" "expected force (N)"
+    PERSON "plots/force/{axis}/person" "force of the person (N)"
+    TORQUE "plots/torque/{axis}" "measured torque about the tool (N m)"
+    COUPLING "plots/coupling/{axis}" "displacement zeta/K by the coupling term (m)"
+    BETA "plots/compliance/beta" "beta of the active state: 0 stiff, -1 complies, +1 minimises the force error"
+    ACTIVATION "plots/compliance/activation" "how far the coupling is switched on, 0 to 1"
+    GRIPPER_COMMAND "plots/gripper/commanded" "commanded opening of the gripper, 0 closed to 1 open"
+    GRIPPER_OPENING "plots/gripper/measured" "measured opening of the gripper"
+    COMPLIANCE_LANE "lanes/compliance" "whether the arm is stiff or complies"
+    STATE_LANE "lanes/state" "the active state"
+    GRIPPER_LANE "lanes/gripper" "whether the gripper is told to be open or closed"
+    PERSON_LANE "lanes/person" "whether the person pushes"
+    EVENTS "events" "what happens, in words"
+    GUIDE "guide" "how to read this recording"
+}

@@ -1,0 +1,96 @@
+//! What happened, in words: one line per event, in the order of time.
+
+use super::entity_path::EVENTS;
+use super::lanes::{CLOSED, PUSH_N, beta_in_words};
+use super::recorder::{Fault, Recorder};
+use crate::simulation::{RunOutcome, StepRecord};
+
+/// Something worth a line.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Event {
+    pub time_s: f64,
+    pub kind: Kind,
+    pub text: String,
+}
+
+/// How much attention it deserves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Note,
+    Fault,
+}
+
+/// Logs the events of a run.
+pub(super) fn log_events(recorder: &Recorder, outcome: &RunOutcome) -> Result<(), Fault> {
+    let events = events(outcome);
+    let times: Vec<f64> = events.iter().map(|event| event.time_s).collect();
+    let level = |event: &Event| match event.kind {
+        Kind::Note => rerun::TextLogLevel::INFO,
+        Kind::Fault => rerun::TextLogLevel::ERROR,
+    };
+    let log = rerun::TextLog::update_fields()
+        .with_many_text(events.iter().map(|event| event.text.as_str()))
+        .with_many_level(events.iter().map(level));
+    recorder.at_times(EVENTS.path(), &times, log.columns_of_unit_batches()?)
+}
+
+/// The events of a run, in the order of time.
+pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
+    let records = &outcome.steps;
+    let mut events = Vec::new();
+    let note = |time_s: f64, text: String| Event { time_s, kind: Kind::Note, text };
+    if let Some(first) = records.first() {
+        events.push(note(first.time_s, format!("the skill starts, {}", beta_in_words(first.beta))));
+    }
+    for pair in records.windows(2) {
+        let (before, now) = (&pair[0], &pair[1]);
+        events.extend(changes(before, now).into_iter().map(|text| note(now.time_s, text)));
+        if pushes(before) && !pushes(now) {
+            events.push(note(now.time_s, format!("the person lets go (peak {:.1} N)", peak_of_push(records, before.step))));
+        }
+    }
+    for clearance in outcome.clearances.iter().filter(|c| c.min_distance_m.is_finite()) {
+        let text = format!("closest to {}: {} at {:.0} mm", clearance.b, clearance.a, clearance.min_distance_m * 1e3);
+        events.push(note(clearance.time_s, text));
+    }
+    for contact in outcome.collisions.iter().filter(|contact| !contact.allowed) {
+        let text = format!("{} touches {}: up to {:.1} N, {:.1} mm deep", contact.a, contact.b, contact.max_force_n, contact.max_depth_m * 1e3);
+        events.push(Event { time_s: contact.first_time_s, kind: Kind::Fault, text });
+    }
+    events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    events
+}
+
+/// What differs between two neighbouring records.
+fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
+    let mut texts = Vec::new();
+    if before.beta != now.beta {
+        texts.push(match beta_in_words(now.beta) {
+            "complies" => format!("the arm complies from here (state {})", now.state),
+            "stiff" => format!("the arm is stiff from here (state {})", now.state),
+            other => format!("the arm {other} from here (state {})", now.state),
+        });
+    }
+    match (before.gripper_command < CLOSED, now.gripper_command < CLOSED) {
+        (false, true) => texts.push("the gripper closes".into()),
+        (true, false) => texts.push("the gripper opens".into()),
+        _ => {}
+    }
+    if pushes(now) && !pushes(before) {
+        texts.push("the person takes hold".into());
+    }
+    if before.time_fraction < 1.0 && now.time_fraction >= 1.0 {
+        texts.push("the skill ends".into());
+    }
+    texts
+}
+
+fn pushes(record: &StepRecord) -> bool {
+    record.human.force.norm() > PUSH_N
+}
+
+/// The largest force of the push that ended at `step` (N).
+fn peak_of_push(records: &[StepRecord], step: u64) -> f64 {
+    let until = records.iter().rev().skip_while(|record| record.step > step);
+    until.take_while(|record| pushes(record)).map(|record| record.human.force.norm()).fold(0.0, f64::max)
+}

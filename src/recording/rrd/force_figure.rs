@@ -1,0 +1,77 @@
+//! What is felt and what is done about it: forces as arrows and over time, the coupling's displacement, compliance and gripper.
+
+use nalgebra::{Point3, Vector3};
+use rerun::{Arrows3D, Color, EntityPath, Scalars};
+
+use super::convert;
+use super::entity_path::{
+    ACTIVATION, BETA, COUPLING, EXPECTED, EXPECTED_ARROW, Entity, GRIPPER_COMMAND, GRIPPER_OPENING, PERSON, PERSON_ARROW, TORQUE, WRENCH, WRENCH_ARROW,
+};
+use super::palette;
+use super::paths::{AXES, style};
+use super::recorder::{Fault, Recorder};
+use crate::simulation::StepRecord;
+
+/// Length of an arrow per newton (m/N): 15 N, the most that a helping person pushes with, are 18 cm.
+const ARROW_M_PER_N: f64 = 0.012;
+
+/// Forces below this are not drawn as arrows (N).
+const SMALLEST_ARROW_N: f64 = 0.25;
+
+/// Colours of the three axes, as rerun and most robot tools draw them.
+const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLANNED];
+
+/// Logs all forces and what answers them.
+pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord]) -> Result<(), Fault> {
+    let tool = |r: &StepRecord| Point3::from(r.tool.translation.vector);
+    let measured = |r: &StepRecord| Vector3::from(r.wrench.fixed_rows::<3>(0));
+    let arrows = Arrows { recorder, records };
+    arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (tool(r), measured(r)))?;
+    arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r), r.expected_force))?;
+    arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point, r.human.force))?;
+    let plot = Plot { recorder, records };
+    for (i, axis) in AXES.iter().enumerate() {
+        plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;
+        plot.log(EXPECTED.of(&[axis]), "expected", palette::EXPECTED, |r| r.expected_force[i])?;
+        plot.log(PERSON.of(&[axis]), "person", palette::PERSON, |r| r.human.force[i])?;
+        plot.log(TORQUE.of(&[axis]), axis, AXIS_COLORS[i], |r| r.wrench[3 + i])?;
+        plot.log(COUPLING.of(&[axis]), axis, AXIS_COLORS[i], |r| r.coupling_displacement[i])?;
+    }
+    plot.log(BETA.path(), "beta", palette::COMPLIES, |r| r.beta)?;
+    plot.log(ACTIVATION.path(), "activation", palette::EXECUTED, |r| r.activation)?;
+    plot.log(GRIPPER_COMMAND.path(), "commanded", palette::PLANNED, |r| r.gripper_command)?;
+    plot.log(GRIPPER_OPENING.path(), "measured", palette::EXECUTED, |r| r.gripper_opening)
+}
+
+struct Plot<'a> {
+    recorder: &'a Recorder,
+    records: &'a [StepRecord],
+}
+
+impl Plot<'_> {
+    fn log(&self, entity: EntityPath, name: &str, color: Color, value: impl Fn(&StepRecord) -> f64) -> Result<(), Fault> {
+        self.recorder.always(entity.clone(), &style(name, color, 1.5))?;
+        let values: Vec<f64> = self.records.iter().map(value).collect();
+        self.recorder.every_step(entity, Scalars::new(values).columns_of_unit_batches()?)
+    }
+}
+
+struct Arrows<'a> {
+    recorder: &'a Recorder,
+    records: &'a [StepRecord],
+}
+
+impl Arrows<'_> {
+    /// One arrow per record, none where the force is too small to see.
+    fn log(&self, entity: &Entity, color: Color, force: impl Fn(&StepRecord) -> (Point3<f64>, Vector3<f64>)) -> Result<(), Fault> {
+        let forces: Vec<_> = self.records.iter().map(force).collect();
+        let visible = |(_, force): &(Point3<f64>, Vector3<f64>)| force.norm() >= SMALLEST_ARROW_N;
+        let drawn = || forces.iter().filter(|arrow| visible(arrow));
+        let arrows = Arrows3D::update_fields()
+            .with_vectors(drawn().map(|(_, force)| convert::vector(&(force * ARROW_M_PER_N))))
+            .with_origins(drawn().map(|(point, _)| convert::vector(&point.coords)));
+        let lengths: Vec<usize> = forces.iter().map(|arrow| usize::from(visible(arrow))).collect();
+        self.recorder.always(entity.path(), &Arrows3D::update_fields().with_colors([color]).with_radii([0.008]))?;
+        self.recorder.every_step(entity.path(), arrows.columns(lengths)?)
+    }
+}

@@ -1,0 +1,36 @@
+//! A page in the recording that says how to read it.
+
+use rerun::TextDocument;
+
+use super::entity_path::{ENTITIES, GUIDE, TIMELINES};
+use super::recorder::{Fault, Recorder};
+use crate::simulation::{Experiment, RunOutcome};
+
+/// Logs the page.
+pub(super) fn log_guide(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), Fault> {
+    recorder.always(GUIDE.path(), &TextDocument::from_markdown(page(experiment, outcome)))
+}
+
+fn page(experiment: &Experiment, outcome: &RunOutcome) -> String {
+    let setting: Vec<String> = experiment.parameters.0.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    let mut page = format!(
+        "# {}\n\nSeed {}; {}; {} demonstrations.\n\n{READING}\n\n## Timelines\n\n",
+        experiment.name,
+        experiment.seed,
+        setting.join(", "),
+        outcome.dataset.demonstrations.len(),
+    );
+    page.extend(TIMELINES.iter().map(|timeline| format!("- `{}`: {}\n", timeline.name, timeline.meaning)));
+    page.push_str("\n## Entities\n\n");
+    page.extend(ENTITIES.iter().map(|entity| format!("- `{}`: {}\n", entity.pattern, entity.meaning)));
+    page
+}
+
+const READING: &str = "\
+A person taught the arm by leading it (grey paths). From these demonstrations the arm learned a movement whose states are Gaussians
+(ellipsoids at two standard deviations). Where the demonstrations agree a state is **stiff** (green): the arm holds its way. Where they
+disagree it **complies** (purple): the arm yields to forces, and a person may push it to where it should go (vermilion arrow).
+
+- grey: taught; sky blue: planned, what the skill generates for this setting without any force; orange: executed
+- blue arrow and line: force measured at the tool; yellow: force that the skill expects; vermilion: force of the person
+- the brighter ellipsoid is that of the active state; in the plots each ellipse is one state over time";

@@ -1,0 +1,19 @@
+//! The recording for the rerun viewer: the only place that knows rerun.
+
+mod blueprint_property;
+mod convert;
+pub mod entity_path;
+mod events;
+mod force_figure;
+mod guide;
+mod lanes;
+mod layout;
+mod palette;
+mod paths;
+mod recorder;
+mod robot_figure;
+mod scene_figure;
+mod state_figure;
+mod write;
+
+pub use write::write_recording;

@@ -1,0 +1,115 @@
+//! The stream into a recording file: everything is sent in columns, so the file is small and its content does not depend on any clock.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+
+use nalgebra::Isometry3;
+use rerun::external::re_log_encoding::{Decodable, StreamFooter};
+use rerun::{AsComponents, EntityPath, RecordingStream, SerializedComponentColumn, TimeColumn};
+
+use super::convert;
+use super::entity_path::{PHASE, SIM_TIME, STEP};
+use crate::simulation::StepRecord;
+
+/// What goes wrong while a file is written, before its path is added.
+pub(super) type Fault = Box<dyn std::error::Error + Send + Sync>;
+
+/// Writes entities of one run.
+pub(super) struct Recorder {
+    stream: RecordingStream,
+    /// Times of the logged steps on every timeline.
+    steps: [TimeColumn; 3],
+    /// Engine step (s), and duration of the skill (s).
+    step_s: f64,
+    duration_s: f64,
+}
+
+impl Recorder {
+    /// Sends to `stream`. Other times than those of the records are mapped by the engine's step and the skill's duration (s).
+    pub(super) fn new(stream: RecordingStream, records: &[StepRecord], step_s: f64, duration_s: f64) -> Self {
+        stream.set_log_time_enabled(false);
+        stream.set_log_tick_enabled(false);
+        let steps = [
+            TimeColumn::new_duration_nanos(SIM_TIME.name, records.iter().map(|r| nanoseconds(r.time_s))),
+            TimeColumn::new_sequence(STEP.name, records.iter().map(|r| r.step as i64)),
+            TimeColumn::new_sequence(PHASE.name, records.iter().map(|r| ten_thousandths(r.time_fraction))),
+        ];
+        Self { stream, steps, step_s, duration_s }
+    }
+
+    /// The stream, for what is sent in another way.
+    pub(super) fn stream(&self) -> &RecordingStream {
+        &self.stream
+    }
+
+    /// Logs what holds at all times.
+    pub(super) fn always(&self, entity: impl Into<EntityPath>, what: &dyn AsComponents) -> Result<(), Fault> {
+        Ok(self.stream.log_static(entity, what)?)
+    }
+
+    /// Logs one row per record.
+    pub(super) fn every_step(
+        &self,
+        entity: impl Into<EntityPath>,
+        columns: impl IntoIterator<Item = SerializedComponentColumn>,
+    ) -> Result<(), Fault> {
+        Ok(self.stream.send_columns(entity, self.steps.clone(), columns)?)
+    }
+
+    /// Logs rows at `times_s` (s).
+    pub(super) fn at_times(
+        &self,
+        entity: impl Into<EntityPath>,
+        times_s: &[f64],
+        columns: impl IntoIterator<Item = SerializedComponentColumn>,
+    ) -> Result<(), Fault> {
+        let times = [
+            TimeColumn::new_duration_nanos(SIM_TIME.name, times_s.iter().map(|t| nanoseconds(*t))),
+            TimeColumn::new_sequence(STEP.name, times_s.iter().map(|t| (t / self.step_s).round() as i64)),
+            TimeColumn::new_sequence(PHASE.name, times_s.iter().map(|t| ten_thousandths(t / self.duration_s))),
+        ];
+        Ok(self.stream.send_columns(entity, times, columns)?)
+    }
+
+    /// Logs a pose per record, or once if it never changes.
+    pub(super) fn poses(&self, entity: EntityPath, poses: &[Isometry3<f64>]) -> Result<(), Fault> {
+        match poses {
+            [] => Ok(()),
+            [first, rest @ ..] if rest.iter().all(|pose| pose == first) => self.always(entity, &convert::transform(first)),
+            _ => {
+                let places = poses.iter().map(|pose| convert::vector(&pose.translation.vector));
+                let turns = poses.iter().map(|pose| convert::quaternion(&pose.rotation));
+                let columns = rerun::Transform3D::update_fields().with_many_translation(places).with_many_quaternion(turns);
+                self.every_step(entity, columns.columns_of_unit_batches()?)
+            }
+        }
+    }
+
+    /// Waits until everything is in the file and closes it.
+    pub(super) fn finish(self) -> Result<(), Fault> {
+        self.stream.flush_blocking()?;
+        drop(self.stream);
+        Ok(())
+    }
+}
+
+/// Whether a recording ends with the footer that says where everything is; without it the file was cut off.
+pub(super) fn has_footer(path: &Path) -> Result<bool, std::io::Error> {
+    let mut file = File::open(path)?;
+    if file.metadata()?.len() < StreamFooter::ENCODED_SIZE_BYTES as u64 {
+        return Ok(false);
+    }
+    file.seek(SeekFrom::End(-(StreamFooter::ENCODED_SIZE_BYTES as i64)))?;
+    let mut end = Vec::with_capacity(StreamFooter::ENCODED_SIZE_BYTES);
+    file.read_to_end(&mut end)?;
+    Ok(StreamFooter::from_rrd_bytes(&end).is_ok_and(|footer| !footer.entries.is_empty()))
+}
+
+fn nanoseconds(time_s: f64) -> i64 {
+    (time_s * 1e9).round() as i64
+}
+
+fn ten_thousandths(fraction: f64) -> i64 {
+    (fraction * 1e4).round() as i64
+}

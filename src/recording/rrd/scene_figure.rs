@@ -1,0 +1,62 @@
+//! The objects of the scene.
+
+use nalgebra::Isometry3;
+use rerun::{Boxes3D, Color, Ellipsoids3D, FillMode};
+
+use super::convert;
+use super::entity_path::{OBJECT, OBJECT_SHAPE};
+use super::recorder::{Fault, Recorder};
+use crate::simulation::{Experiment, StepRecord};
+use crate::world::{Object, ObjectKind, PartShape, initial_pose, object_parts, support_height_m};
+
+/// Logs every object: its shapes, and its pose over time.
+pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
+    let support = support_height_m(&experiment.objects);
+    for (index, object) in experiment.objects.iter().enumerate() {
+        let mut poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.objects.get(index).copied()).collect();
+        if poses.len() != records.len() || poses.is_empty() {
+            poses = vec![initial_pose(object, &experiment.parameters, support)];
+        }
+        recorder.poses(OBJECT.of(&[&object.name]), &poses)?;
+        log_shapes(recorder, experiment, object)?;
+    }
+    Ok(())
+}
+
+fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> Result<(), Fault> {
+    let color = color(object);
+    let (mut boxes, mut balls) = (Vec::new(), Vec::new());
+    for part in object_parts(object, &experiment.parameters) {
+        let pose = part.object_from_part;
+        let place = convert::vector(&pose.translation.vector);
+        match part.shape {
+            PartShape::Box(half) => boxes.push((place, convert::quaternion(&pose.rotation), convert::vector(&half))),
+            PartShape::Ball(radius) => balls.push((place, radius as f32)),
+        }
+    }
+    if !boxes.is_empty() {
+        let solid = Boxes3D::from_centers_and_half_sizes(boxes.iter().map(|b| b.0), boxes.iter().map(|b| b.2))
+            .with_quaternions(boxes.iter().map(|b| b.1))
+            .with_colors([color])
+            .with_fill_mode(FillMode::Solid);
+        recorder.always(OBJECT_SHAPE.of(&[&object.name, "boxes"]), &solid)?;
+    }
+    if !balls.is_empty() {
+        let solid = Ellipsoids3D::from_centers_and_radii(balls.iter().map(|b| b.0), balls.iter().map(|b| b.1))
+            .with_colors([color])
+            .with_fill_mode(FillMode::Solid);
+        recorder.always(OBJECT_SHAPE.of(&[&object.name, "balls"]), &solid)?;
+    }
+    Ok(())
+}
+
+/// Calm colours for what stands there, a bright one for what is to be grasped.
+fn color(object: &Object) -> Color {
+    match object.kind {
+        ObjectKind::Table { .. } => Color::from_rgb(196, 178, 150),
+        ObjectKind::UBlock { .. } => Color::from_rgb(128, 146, 170),
+        ObjectKind::Ball { .. } => Color::from_rgb(250, 214, 40),
+        ObjectKind::Basket { .. } => Color::from_rgb(140, 100, 66),
+        ObjectKind::Box { .. } => Color::from_rgb(214, 108, 70),
+    }
+}

@@ -1,0 +1,103 @@
+//! `manifest.json`: what a run was made from, so that it can be made again.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use twox_hash::XxHash3_64;
+
+/// What marks a folder as one of ours.
+pub(super) const FORMAT: &str = "cpdmp-run";
+
+/// What a run was made from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Manifest {
+    /// Always `cpdmp-run`.
+    pub format: &'static str,
+    /// Version of this format.
+    pub schema_version: u32,
+    /// Version of the program.
+    pub version: &'static str,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Its seed.
+    pub seed: u64,
+    /// How the run ended.
+    pub outcome: super::Outcome,
+    /// Hash over every body's state at every step.
+    pub state_hash: Option<String>,
+    /// The command line.
+    pub command: Vec<String>,
+    /// The folder in which it was given.
+    pub directory: Option<PathBuf>,
+    /// When it began (s since 1970-01-01 UTC).
+    pub started_unix_s: Option<u64>,
+    /// The files that decide the run.
+    pub inputs: Vec<FileHash>,
+    /// Where it ran.
+    pub host: Host,
+}
+
+/// One file that decides a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FileHash {
+    /// Its path, as the scenario names it.
+    pub path: PathBuf,
+    /// Its length in bytes; `null` if it could not be read again.
+    pub bytes: Option<u64>,
+    /// XXH3-64 of its bytes, in hexadecimal.
+    pub xxh3_64: Option<String>,
+}
+
+/// The machine that ran it. Equal hashes are promised for equal architectures.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Host {
+    /// Operating system.
+    pub os: &'static str,
+    /// Processor architecture.
+    pub arch: &'static str,
+    /// Processor cores that the program could use.
+    pub cores: Option<usize>,
+}
+
+impl Host {
+    /// This machine.
+    pub fn this() -> Self {
+        let cores = std::thread::available_parallelism().ok().map(usize::from);
+        Self { os: std::env::consts::OS, arch: std::env::consts::ARCH, cores }
+    }
+}
+
+impl Manifest {
+    /// The manifest of a run with that report; the caller adds what only it knows.
+    pub fn new(report: &super::RunReport) -> Self {
+        Self {
+            format: FORMAT,
+            schema_version: 1,
+            version: report.version,
+            scenario: report.scenario.clone(),
+            seed: report.seed,
+            outcome: report.outcome,
+            state_hash: report.state_hash.clone(),
+            command: Vec::new(),
+            directory: None,
+            started_unix_s: None,
+            inputs: Vec::new(),
+            host: Host::this(),
+        }
+    }
+
+    /// The manifest as `manifest.json`.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a manifest holds nothing that JSON cannot") + "\n"
+    }
+}
+
+/// Length and hash of a file.
+pub fn hash_file(path: &Path) -> FileHash {
+    let bytes = std::fs::read(path).ok();
+    FileHash {
+        path: path.to_path_buf(),
+        bytes: bytes.as_ref().map(|bytes| bytes.len() as u64),
+        xxh3_64: bytes.map(|bytes| format!("{:016x}", XxHash3_64::oneshot(&bytes))),
+    }
+}

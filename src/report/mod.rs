@@ -1,0 +1,21 @@
+//! Text out: what a run is told to people and to other programs.
+//!
+//! [`RunReport`] is the only source: `report.json` is its serialised form, the table on the terminal is drawn from it, and later formats read
+//! nothing else. [`RunFolder`] is where a run leaves its files: written beside, then renamed, so that there is never half of one.
+
+mod lock;
+mod manifest;
+mod outcome;
+mod run_folder;
+mod run_report;
+mod sections;
+mod text;
+
+pub use manifest::{FileHash, Host, Manifest, hash_file};
+pub use outcome::Outcome;
+pub use run_folder::{OutputError, RunFolder, write_file};
+pub use run_report::{
+    ClearanceReport, CollisionReport, ComplianceReport, ComplianceState, CriterionReport, HumanReport, LearningSection, PhaseReport,
+    RunReport, Window,
+};
+pub use text::text;

@@ -1,0 +1,112 @@
+//! How a command can end: the one table of exit codes.
+
+use serde::{Serialize, Serializer};
+
+/// How a command ended. The exit code and the name are an interface: other programs read them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Outcome {
+    /// Everything is as expected.
+    Passed,
+    /// A criterion was not as expected.
+    CriteriaNotMet,
+    /// The simulation left the finite numbers.
+    Diverged,
+    /// No skill could be learned.
+    LearningFailed,
+    /// The arguments select no scenario.
+    NothingSelected,
+    /// Another run writes to the same folder.
+    OutputBusy,
+    /// The output cannot be written.
+    OutputFailed,
+    /// A scenario, robot or dataset cannot be used.
+    InvalidInput,
+    /// The command line makes no sense.
+    Usage,
+    /// A bug in the program.
+    InternalError,
+}
+
+impl Outcome {
+    /// Every outcome, from the mildest to the worst: a command that meets several ends with the worst.
+    pub const ALL: [Self; 10] = [
+        Self::Passed,
+        Self::CriteriaNotMet,
+        Self::Diverged,
+        Self::LearningFailed,
+        Self::NothingSelected,
+        Self::OutputBusy,
+        Self::OutputFailed,
+        Self::InvalidInput,
+        Self::Usage,
+        Self::InternalError,
+    ];
+
+    /// The exit code of the program.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Self::Passed => 0,
+            Self::InternalError => 1,
+            Self::Usage => 2,
+            Self::InvalidInput => 3,
+            Self::LearningFailed => 4,
+            Self::NothingSelected => 5,
+            Self::CriteriaNotMet => 10,
+            Self::Diverged => 11,
+            Self::OutputFailed => 20,
+            Self::OutputBusy => 21,
+        }
+    }
+
+    /// The name in `report.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Passed => "passed",
+            Self::CriteriaNotMet => "criteria_not_met",
+            Self::Diverged => "diverged",
+            Self::LearningFailed => "learning_failed",
+            Self::NothingSelected => "nothing_selected",
+            Self::OutputBusy => "output_busy",
+            Self::OutputFailed => "output_failed",
+            Self::InvalidInput => "invalid_input",
+            Self::Usage => "usage",
+            Self::InternalError => "internal_error",
+        }
+    }
+
+    /// What it means, and what to do.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Passed => "every required criterion is as the scenario expects",
+            Self::CriteriaNotMet => "a required criterion is not as the scenario expects: the table and report.json say which, by how much and when",
+            Self::Diverged => "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help",
+            Self::LearningFailed => "no skill could be learned from the demonstrations",
+            Self::NothingSelected => "the arguments name no scenario: check the folder or pattern",
+            Self::OutputBusy => "another run is writing to the same folder: wait, or choose another --out",
+            Self::OutputFailed => "the output cannot be written: disk full, no permission, or the folder holds something that is not a run",
+            Self::InvalidInput => "a scenario, robot file or dataset cannot be used: nothing was simulated or written",
+            Self::Usage => "the command line cannot be understood: see --help",
+            Self::InternalError => "a bug in the program: please report it with the command and the scenario",
+        }
+    }
+}
+
+impl Serialize for Outcome {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_outcome_has_a_code_and_a_name_of_its_own() {
+        for (index, outcome) in Outcome::ALL.into_iter().enumerate() {
+            assert_eq!(outcome as usize, index, "ALL is in the order of the enum");
+            let twins = Outcome::ALL.iter().filter(|other| other.exit_code() == outcome.exit_code() || other.name() == outcome.name());
+            assert_eq!(twins.count(), 1, "{outcome:?}");
+        }
+    }
+}

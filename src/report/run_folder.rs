@@ -1,0 +1,180 @@
+//! Where a run leaves its files: beside the final place first, then renamed.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::Outcome;
+use super::lock::{Lock, LockError, lock};
+use super::manifest::FORMAT;
+
+/// Why output cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The place is taken by something that is not ours.
+    #[error("{} is there already and is not the folder of a run (it has no manifest.json of cpdmp): choose another --out, or move it away", .0.display())]
+    NotARun(PathBuf),
+    /// Another run writes there.
+    #[error("{} is in use by {holder}: wait for it, or choose another --out", path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+        /// Who uses it.
+        holder: String,
+    },
+    /// The file system refused.
+    #[error("{} cannot be written: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+impl OutputError {
+    /// How a command ends that meets this error.
+    pub fn outcome(&self) -> Outcome {
+        match self {
+            Self::Busy { .. } => Outcome::OutputBusy,
+            Self::NotARun(_) | Self::Io { .. } => Outcome::OutputFailed,
+        }
+    }
+
+    fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Io { path, source }
+    }
+}
+
+/// The folder of a run that is being written. Nothing is seen at its final place until [`RunFolder::finish`]; an older run stays until then.
+#[derive(Debug)]
+pub struct RunFolder {
+    target: PathBuf,
+    staging: PathBuf,
+    _lock: Lock,
+}
+
+impl RunFolder {
+    /// Takes the folder `target`: checks that it may be replaced, locks it, and makes the place beside it.
+    pub fn open(target: &Path) -> Result<Self, OutputError> {
+        may_be_replaced(target)?;
+        let name = target.file_name().ok_or_else(|| OutputError::NotARun(target.to_path_buf()))?.to_string_lossy().into_owned();
+        let parent = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        fs::create_dir_all(parent).map_err(OutputError::io(parent))?;
+        let lock_path = parent.join(format!(".{name}.lock"));
+        let lock = lock(&lock_path).map_err(|error| match error {
+            LockError::Held(holder) => OutputError::Busy { path: target.to_path_buf(), holder },
+            LockError::Io(source) => OutputError::Io { path: lock_path.clone(), source },
+        })?;
+        // Left behind only by a run that was killed: under the lock nobody else writes here.
+        let staging = parent.join(format!(".{name}.partial"));
+        remove_if_there(&staging)?;
+        fs::create_dir(&staging).map_err(OutputError::io(&staging))?;
+        Ok(Self { target: target.to_path_buf(), staging, _lock: lock })
+    }
+
+    /// The place where files are written for now.
+    pub fn staging(&self) -> &Path {
+        &self.staging
+    }
+
+    /// Writes one file of the run.
+    pub fn write(&self, name: &str, content: &str) -> Result<(), OutputError> {
+        write_file(&self.staging.join(name), content)
+    }
+
+    /// Puts the run in its place. An older run there is replaced.
+    pub fn finish(self) -> Result<PathBuf, OutputError> {
+        may_be_replaced(&self.target)?;
+        let old = self.staging.with_extension("old");
+        remove_if_there(&old)?;
+        if self.target.exists() {
+            fs::rename(&self.target, &old).map_err(OutputError::io(&self.target))?;
+        }
+        if let Err(source) = fs::rename(&self.staging, &self.target) {
+            // Better the older run than none.
+            _ = fs::rename(&old, &self.target);
+            return Err(OutputError::Io { path: self.target.clone(), source });
+        }
+        remove_if_there(&old)?;
+        Ok(self.target.clone())
+    }
+}
+
+impl Drop for RunFolder {
+    fn drop(&mut self) {
+        _ = fs::remove_dir_all(&self.staging);
+    }
+}
+
+/// A folder may be replaced when it is not there, is empty, or holds a run.
+fn may_be_replaced(target: &Path) -> Result<(), OutputError> {
+    let Ok(mut entries) = fs::read_dir(target) else {
+        return if target.symlink_metadata().is_ok() { Err(OutputError::NotARun(target.to_path_buf())) } else { Ok(()) };
+    };
+    let is_run = || {
+        let manifest = fs::read_to_string(target.join("manifest.json")).unwrap_or_default();
+        let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap_or_default();
+        manifest["format"] == FORMAT
+    };
+    if entries.next().is_none() || is_run() { Ok(()) } else { Err(OutputError::NotARun(target.to_path_buf())) }
+}
+
+fn remove_if_there(folder: &Path) -> Result<(), OutputError> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::Io { path: folder.to_path_buf(), source: error }),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a file so that it is on the disk when this returns.
+pub fn write_file(path: &Path, content: &str) -> Result<(), OutputError> {
+    let write = || {
+        let mut file = File::create(path)?;
+        file.write_all(content.as_bytes())?;
+        file.sync_all()
+    };
+    write().map_err(OutputError::io(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MANIFEST: &str = r#"{"format":"cpdmp-run"}"#;
+
+    #[test]
+    fn nothing_is_seen_before_the_end_and_an_older_run_stays_until_then() {
+        let place = tempfile::tempdir().expect("a folder");
+        let target = place.path().join("runs/a");
+        for content in ["first", "second"] {
+            let folder = RunFolder::open(&target).expect("free");
+            folder.write("manifest.json", MANIFEST).expect("written");
+            folder.write("x", content).expect("written");
+            assert_ne!(fs::read_to_string(target.join("x")).unwrap_or_default(), content);
+            folder.finish().expect("renamed");
+            assert_eq!(fs::read_to_string(target.join("x")).expect("there"), content);
+        }
+        let left: Vec<_> = fs::read_dir(place.path().join("runs")).expect("there").collect();
+        assert_eq!(left.len(), 1, "no lock, no staging, no old run is left: {left:?}");
+    }
+
+    #[test]
+    fn what_is_not_a_run_is_never_overwritten() {
+        let place = tempfile::tempdir().expect("a folder");
+        fs::write(place.path().join("thesis.tex"), "years of work").expect("written");
+        assert!(matches!(RunFolder::open(place.path()), Err(OutputError::NotARun(_))));
+        assert!(matches!(RunFolder::open(&place.path().join("thesis.tex")), Err(OutputError::NotARun(_))));
+    }
+
+    #[test]
+    fn one_folder_is_for_one_run() {
+        let place = tempfile::tempdir().expect("a folder");
+        let target = place.path().join("a");
+        let first = RunFolder::open(&target).expect("free");
+        assert_eq!(RunFolder::open(&target).map_err(|error| error.outcome()).err(), Some(Outcome::OutputBusy));
+        drop(first);
+        assert!(RunFolder::open(&target).is_ok());
+    }
+}

@@ -1,0 +1,266 @@
+//! `report.json`: everything a run has to say, as plain data.
+
+use serde::Serialize;
+
+use super::Outcome;
+use super::sections;
+use crate::check::Criterion;
+use crate::simulation::{Experiment, RunOutcome};
+
+/// The version of `report.json`.
+const SCHEMA_VERSION: u32 = 1;
+
+/// The report of one run. Keys are only ever added; a number that does not exist is `null`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RunReport {
+    /// Version of this format.
+    pub schema_version: u32,
+    /// Version of the program.
+    pub version: &'static str,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Its seed.
+    pub seed: u64,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// The exit code that belongs to it.
+    pub exit_code: u8,
+    /// Why the run could not be finished, if it could not.
+    pub error: Option<String>,
+    /// Name of the robot.
+    pub robot: Option<String>,
+    /// The setting in which the skill was executed.
+    pub parameters: Vec<ParameterReport>,
+    /// The scenario's questions and their answers.
+    pub criteria: Vec<CriterionReport>,
+    /// Every pair of parts that touched.
+    pub collisions: Vec<CollisionReport>,
+    /// The smallest distance to every watched object.
+    pub clearance: Vec<ClearanceReport>,
+    /// Where the skill complies.
+    pub compliance: Option<ComplianceReport>,
+    /// What the person did.
+    pub human: Option<HumanReport>,
+    /// How learning went.
+    pub learning: Option<LearningSection>,
+    /// What was simulated, in order.
+    pub phases: Vec<PhaseReport>,
+    /// Engine steps of all phases.
+    pub steps: u64,
+    /// Simulated seconds per second of wall time, over the phases that simulate.
+    pub real_time_factor: Option<f64>,
+    /// Hash over every body's state at every step: equal hashes, equal runs.
+    pub state_hash: Option<String>,
+    /// What looks odd but did not stop the run.
+    pub warnings: Vec<String>,
+}
+
+/// One task parameter.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ParameterReport {
+    /// Its name, which ends in its unit.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+}
+
+/// One question and its answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CriterionReport {
+    /// Its name.
+    pub name: String,
+    /// Whether the outcome of the run depends on it.
+    pub required: bool,
+    /// The answer that the scenario expects: `pass`, `fail` or `report`.
+    pub expect: &'static str,
+    /// Whether the criterion holds.
+    pub passed: bool,
+    /// Whether that is what the scenario expects.
+    pub as_expected: bool,
+    /// The measured value; `null` when the event it is about never happened.
+    pub value: Option<f64>,
+    /// The limit it is held against.
+    pub limit: Option<f64>,
+    /// Unit of value, limit and margin.
+    pub unit: &'static str,
+    /// How far the value is on the right side of the limit.
+    pub margin: Option<f64>,
+    /// When it first failed (s).
+    pub first_failed_time_s: Option<f64>,
+}
+
+/// All contacts of one pair.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CollisionReport {
+    /// A part of the robot, or an object.
+    pub a: String,
+    /// The other one.
+    pub b: String,
+    /// Whether the scene allows it.
+    pub allowed: bool,
+    /// First time (s).
+    pub first_time_s: f64,
+    /// Last time (s).
+    pub last_time_s: f64,
+    /// Deepest penetration (m).
+    pub max_depth_m: f64,
+    /// Largest normal force (N).
+    pub max_force_n: f64,
+}
+
+/// The smallest distance to one object.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ClearanceReport {
+    /// The nearest part of the robot, or what it holds.
+    pub a: String,
+    /// The object.
+    pub b: String,
+    /// The distance (m).
+    pub min_distance_m: Option<f64>,
+    /// When (s).
+    pub time_s: f64,
+    /// Nearest point on `a` (m, world).
+    pub point_a_m: [f64; 3],
+    /// Nearest point on `b` (m, world).
+    pub point_b_m: [f64; 3],
+}
+
+/// Where the skill complies, and why.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ComplianceReport {
+    /// The statistic that decides.
+    pub statistic: &'static str,
+    /// What it must exceed (m²); `null` when no threshold separates the states.
+    pub threshold_m2: Option<f64>,
+    /// Every state.
+    pub states: Vec<ComplianceState>,
+    /// When the skill complied during the execution.
+    pub windows: Vec<Window>,
+}
+
+/// One state of the skill.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ComplianceState {
+    /// Its number.
+    pub index: usize,
+    /// Its value of the statistic (m²).
+    pub value_m2: Option<f64>,
+    /// Its beta: 0 stiff, -1 complies.
+    pub beta: f64,
+}
+
+/// A stretch of time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Window {
+    /// Start (s).
+    pub start_s: f64,
+    /// End (s).
+    pub end_s: f64,
+}
+
+/// What the person did while the skill was executed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct HumanReport {
+    /// Largest force (N).
+    pub peak_force_n: f64,
+    /// Work done on the arm (J).
+    pub work_j: f64,
+    /// Time with the hand on the arm (s).
+    pub contact_s: f64,
+}
+
+/// How learning went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LearningSection {
+    /// Objective after every iteration of the start that was kept.
+    pub log_likelihood: Vec<Option<f64>>,
+    /// Number of states.
+    pub states: usize,
+    /// Number of starts.
+    pub starts: usize,
+    /// How it ended.
+    pub status: &'static str,
+    /// What it warns of.
+    pub warnings: Vec<String>,
+}
+
+/// One phase of the run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PhaseReport {
+    /// Its name.
+    pub name: String,
+    /// Engine steps.
+    pub steps: u64,
+    /// Wall time (s).
+    pub wall_s: f64,
+}
+
+impl RunReport {
+    /// The report of a run that came to its end.
+    pub fn finished(experiment: &Experiment, outcome: &RunOutcome, criteria: &[Criterion]) -> Self {
+        let as_expected = criteria.iter().all(Criterion::as_expected);
+        let steps = outcome.phases.iter().map(|phase| phase.steps).sum();
+        Self {
+            robot: Some(outcome.robot.name.clone()),
+            criteria: criteria.iter().map(sections::criterion).collect(),
+            collisions: outcome.collisions.iter().map(sections::collision).collect(),
+            clearance: outcome.clearances.iter().map(sections::clearance).collect(),
+            compliance: Some(sections::compliance(outcome)),
+            human: Some(sections::human(&outcome.steps)),
+            learning: Some(sections::learning(&outcome.learning)),
+            phases: outcome.phases.iter().map(sections::phase).collect(),
+            steps,
+            real_time_factor: sections::real_time_factor(experiment.physics.step_s, &outcome.phases),
+            state_hash: Some(format!("{:016x}", outcome.state_hash)),
+            warnings: outcome.robot_warnings.iter().map(ToString::to_string).collect(),
+            ..Self::empty(experiment, if as_expected { Outcome::Passed } else { Outcome::CriteriaNotMet })
+        }
+    }
+
+    /// The report of a run that could not be finished.
+    pub fn failed(experiment: &Experiment, outcome: Outcome, error: &str) -> Self {
+        Self { error: Some(error.to_owned()), ..Self::empty(experiment, outcome) }
+    }
+
+    /// The same report with another outcome.
+    pub fn end_as(&mut self, outcome: Outcome) {
+        self.outcome = outcome;
+        self.exit_code = outcome.exit_code();
+    }
+
+    fn empty(experiment: &Experiment, outcome: Outcome) -> Self {
+        let parameters = experiment.parameters.0.iter();
+        Self {
+            schema_version: SCHEMA_VERSION,
+            version: env!("CARGO_PKG_VERSION"),
+            scenario: experiment.name.clone(),
+            seed: experiment.seed,
+            outcome,
+            exit_code: outcome.exit_code(),
+            error: None,
+            robot: None,
+            parameters: parameters.map(|(name, value)| ParameterReport { name: name.clone(), value: *value }).collect(),
+            criteria: Vec::new(),
+            collisions: Vec::new(),
+            clearance: Vec::new(),
+            compliance: None,
+            human: None,
+            learning: None,
+            phases: Vec::new(),
+            steps: 0,
+            real_time_factor: None,
+            state_hash: None,
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The report as `report.json`.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a report holds nothing that JSON cannot") + "\n"
+    }
+
+    /// The report on one line.
+    pub fn to_json_line(&self) -> String {
+        serde_json::to_string(self).expect("a report holds nothing that JSON cannot")
+    }
+}

@@ -1,0 +1,160 @@
+//! The report for people: what was asked, what came of it, what touched, what it took.
+
+use super::Outcome;
+use super::run_report::{CriterionReport, RunReport};
+
+const GREEN: &str = "\u{1b}[32m";
+const RED: &str = "\u{1b}[31m";
+const BOLD: &str = "\u{1b}[1m";
+const PLAIN: &str = "\u{1b}[0m";
+
+/// The report as text with ANSI colours, which the terminal strips where they are not wanted.
+pub fn text(report: &RunReport) -> String {
+    let mut lines = vec![headline(report), String::new()];
+    lines.extend(report.error.iter().map(|error| format!("{RED}{error}{PLAIN}\n")));
+    if !report.criteria.is_empty() {
+        lines.extend(criteria(&report.criteria));
+        lines.push(String::new());
+    }
+    if report.error.is_none() {
+        lines.extend(contacts(report));
+        lines.extend(clearances(report));
+        lines.extend(person(report));
+        lines.extend(compliance(report));
+        lines.extend(learning(report));
+        lines.extend(phases(report));
+    }
+    lines.join("\n") + "\n"
+}
+
+fn headline(report: &RunReport) -> String {
+    let colour = if report.outcome == Outcome::Passed { GREEN } else { RED };
+    let verdict = report.outcome.name().replace('_', " ");
+    format!("{BOLD}{}{PLAIN}, seed {}: {colour}{verdict}{PLAIN}", report.scenario, report.seed)
+}
+
+/// The table of criteria, its columns as wide as their widest entry.
+fn criteria(criteria: &[CriterionReport]) -> Vec<String> {
+    let heading = ["criterion", "expected", "value", "limit", "margin", ""].map(str::to_owned);
+    let rows: Vec<[String; 6]> = std::iter::once(heading).chain(criteria.iter().map(row)).collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; 6] = std::array::from_fn(width);
+    let line = |(index, row): (usize, &[String; 6])| {
+        let [name, expected, value, limit, margin, verdict] = row;
+        let colour = if index == 0 { "" } else { verdict_colour(&criteria[index - 1]) };
+        let end = if colour.is_empty() { "" } else { PLAIN };
+        let [w0, w1, w2, w3, w4, _] = widths;
+        format!("  {name:<w0$}  {expected:<w1$}  {value:>w2$}  {limit:>w3$}  {margin:>w4$}  {colour}{verdict}{end}").trim_end().to_owned()
+    };
+    rows.iter().enumerate().map(line).collect()
+}
+
+fn row(criterion: &CriterionReport) -> [String; 6] {
+    let unit = if criterion.unit == "1" { String::new() } else { format!(" {}", criterion.unit) };
+    let with_unit = |number: Option<f64>| number.map_or("-".to_owned(), |number| format!("{}{unit}", figure(number)));
+    let margin = criterion.margin.map_or("-".to_owned(), |number| format!("{}{}{unit}", if number < 0.0 { "" } else { "+" }, figure(number)));
+    let failed_at = criterion.first_failed_time_s.map_or(String::new(), |time| format!(" at {time:.2} s"));
+    let verdict = match (criterion.as_expected, criterion.required, criterion.passed) {
+        (true, true, true) => "ok".to_owned(),
+        (true, true, false) => format!("ok: fails{failed_at}, as expected"),
+        (_, false, true) => "holds".to_owned(),
+        (_, false, false) => format!("does not hold{failed_at}"),
+        (false, true, false) => format!("FAILED{failed_at}"),
+        (false, true, true) => "FAILED: holds, but should not".to_owned(),
+    };
+    let expected = if criterion.required { criterion.expect } else { "-" };
+    [criterion.name.clone(), expected.to_owned(), with_unit(criterion.value), with_unit(criterion.limit), margin, verdict]
+}
+
+fn verdict_colour(criterion: &CriterionReport) -> &'static str {
+    match (criterion.required, criterion.as_expected) {
+        (true, true) => GREEN,
+        (true, false) => RED,
+        (false, _) => "",
+    }
+}
+
+/// Four significant figures, without an exponent where none is needed.
+fn figure(number: f64) -> String {
+    let magnitude = number.abs();
+    if number == 0.0 {
+        "0".to_owned()
+    } else if (1e-4..1e6).contains(&magnitude) {
+        let decimals = (3 - magnitude.log10().floor() as i32).clamp(0, 7) as usize;
+        let fixed = format!("{number:.decimals$}");
+        if fixed.contains('.') { fixed.trim_end_matches('0').trim_end_matches('.').to_owned() } else { fixed }
+    } else {
+        format!("{number:.3e}")
+    }
+}
+
+fn contacts(report: &RunReport) -> Vec<String> {
+    let refused: Vec<_> = report.collisions.iter().filter(|contact| !contact.allowed).collect();
+    let mut lines = vec![format!("  contacts not allowed  {}", if refused.is_empty() { "none".to_owned() } else { refused.len().to_string() })];
+    lines.extend(refused.iter().map(|contact| {
+        format!(
+            "    {RED}{} - {}{PLAIN}  {:.3} … {:.3} s, {:.2} mm deep, {:.1} N",
+            contact.a,
+            contact.b,
+            contact.first_time_s,
+            contact.last_time_s,
+            contact.max_depth_m * 1e3,
+            contact.max_force_n
+        )
+    }));
+    lines
+}
+
+fn clearances(report: &RunReport) -> Vec<String> {
+    let nearest = report.clearance.iter().filter_map(|clearance| Some((clearance, clearance.min_distance_m?)));
+    let line = |(index, (clearance, distance)): (usize, (&super::ClearanceReport, f64))| {
+        let label = if index == 0 { "smallest clearance" } else { "" };
+        format!("  {label:<20}  {} - {}  {:.1} mm at {:.2} s", clearance.a, clearance.b, distance * 1e3, clearance.time_s)
+    };
+    nearest.enumerate().map(line).collect()
+}
+
+fn person(report: &RunReport) -> Option<String> {
+    let human = report.human?;
+    let told = if human.contact_s == 0.0 {
+        "did not touch the arm".to_owned()
+    } else {
+        format!("at most {:.1} N, {:.2} J of work, {:.1} s in contact", human.peak_force_n, human.work_j, human.contact_s)
+    };
+    Some(format!("  person                {told}"))
+}
+
+fn compliance(report: &RunReport) -> Option<String> {
+    let compliance = report.compliance.as_ref()?;
+    let windows: Vec<String> = compliance.windows.iter().map(|window| format!("{:.2} … {:.2} s", window.start_s, window.end_s)).collect();
+    let told = if windows.is_empty() { "never".to_owned() } else { windows.join(", ") };
+    Some(format!("  complies              {told}"))
+}
+
+fn learning(report: &RunReport) -> Vec<String> {
+    let Some(learning) = &report.learning else { return Vec::new() };
+    let last = learning.log_likelihood.last().copied().flatten().map_or(String::new(), |value| format!(", log-likelihood {}", figure(value)));
+    let mut lines = vec![format!("  learning              {}, {} states, best of {} starts{last}", learning.status, learning.states, learning.starts)];
+    lines.extend(learning.warnings.iter().map(|warning| format!("    warning: {warning}")));
+    lines
+}
+
+fn phases(report: &RunReport) -> Vec<String> {
+    let each: Vec<String> = report.phases.iter().map(|phase| format!("{} {:.1} s", phase.name, phase.wall_s)).collect();
+    let factor = report.real_time_factor.map_or(String::new(), |factor| format!("; {factor:.1} times real time"));
+    let hash = report.state_hash.as_ref().map(|hash| format!("  state hash            {hash}"));
+    let took = (!each.is_empty()).then(|| format!("  wall time             {}{factor}", each.join(", ")));
+    took.into_iter().chain(hash).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::figure;
+
+    #[test]
+    fn figures_are_short_and_keep_four_digits() {
+        for (number, shown) in [(0.0, "0"), (0.012, "0.012"), (0.0123456, "0.01235"), (-14.2, "-14.2"), (1e-7, "1.000e-7"), (298000.0, "298000")] {
+            assert_eq!(figure(number), shown);
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! A fault as the reader sees it: file, line, column, what is there, what was expected, how to mend it.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use super::fault::{Code, Fault, Place, Severity};
+use super::source::Sources;
+
+/// One fault of a scenario.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Diagnostic {
+    /// What kind of fault.
+    pub code: Code,
+    /// How bad.
+    pub severity: Severity,
+    /// The file, as the user named it; `--set` for an override.
+    pub file: String,
+    /// Line, from 1. Absent when the fault is the file's as a whole.
+    pub line: Option<usize>,
+    /// Column in characters, from 1.
+    pub column: Option<usize>,
+    /// The stretch of the file, in bytes.
+    pub span: Option<Range<usize>>,
+    /// What is wrong.
+    pub message: String,
+    /// What would have been right.
+    pub expected: Option<String>,
+    /// How to mend it.
+    pub help: Option<String>,
+    /// The text of the file, for the snippet.
+    #[serde(skip)]
+    pub(super) text: Arc<str>,
+}
+
+/// Why a scenario cannot be used: all faults that were found, at least one of them an error.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+pub struct InvalidScenario(pub Vec<Diagnostic>);
+
+impl fmt::Display for Diagnostic {
+    /// `file:line:column: error[code]: message; expected …; help`, on one line.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.file)?;
+        if let (Some(line), Some(column)) = (self.line, self.column) {
+            write!(f, ":{line}:{column}")?;
+        }
+        let severity = if self.severity == Severity::Error { "error" } else { "warning" };
+        write!(f, ": {severity}[{}]: {}", self.code.describe().0, self.message)?;
+        for (label, text) in [("expected ", &self.expected), ("", &self.help)] {
+            if let Some(text) = text {
+                write!(f, "; {label}{text}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Faults as diagnostics, in the order of the files and the places in them, none twice.
+pub(super) fn diagnose(faults: Vec<Fault>, sources: &Sources) -> Vec<Diagnostic> {
+    let mut diagnostics: Vec<Diagnostic> = Vec::new();
+    let mut ordered = faults;
+    ordered.sort_by_key(|fault| match &fault.place {
+        Place::Text(origin) => (Some(origin.source), origin.start),
+        Place::File(_) => (None, 0),
+    });
+    for fault in ordered {
+        let diagnostic = of_fault(fault, sources);
+        if !diagnostics.contains(&diagnostic) {
+            diagnostics.push(diagnostic);
+        }
+    }
+    diagnostics
+}
+
+fn of_fault(fault: Fault, sources: &Sources) -> Diagnostic {
+    let (file, span, text) = match fault.place {
+        Place::Text(origin) => {
+            let source = sources.get(origin.source);
+            (source.name.clone(), Some(within(&source.text, origin.start..origin.end)), source.text.clone())
+        }
+        Place::File(path) => (path.display().to_string(), None, Arc::from("")),
+    };
+    let place = span.as_ref().map(|span| line_and_column(&text, span.start));
+    Diagnostic {
+        code: fault.code,
+        severity: fault.severity,
+        file,
+        line: place.map(|(line, _)| line),
+        column: place.map(|(_, column)| column),
+        span,
+        message: fault.message,
+        expected: fault.expected,
+        help: fault.help,
+        text,
+    }
+}
+
+/// The span, moved to where characters begin and the text ends.
+fn within(text: &str, span: Range<usize>) -> Range<usize> {
+    let floor = |index: usize| (0..=index.min(text.len())).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0);
+    let start = floor(span.start);
+    start..floor(span.end).max(start)
+}
+
+fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = &text[..offset];
+    let line_start = before.rfind('\n').map_or(0, |index| index + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_and_columns_count_characters_from_one() {
+        assert_eq!(line_and_column("a\nmü = 1", 0), (1, 1));
+        assert_eq!(line_and_column("a\nmü = 1", 6), (2, 4));
+        assert_eq!(within("mü", 2..9), 1..3);
+    }
+}

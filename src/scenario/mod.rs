@@ -1,0 +1,38 @@
+//! Scenario files: the only room that knows TOML as a language.
+//!
+//! A file goes through three stages. `layer` and `overrides` read text into a tree whose values know where they were typed, one layer on
+//! top of the other. `conform` holds the tree against the table of keys in `schema`: types, ranges, unknown keys, defaults. `checks` looks at
+//! what no single key can tell. Only then is it turned into the settings of the rooms below. Every stage goes on after a fault, so that
+//! one pass tells them all.
+
+mod build;
+mod build_learning;
+mod check_names;
+mod check_taught;
+mod check_times;
+mod checks;
+mod conform;
+mod diagnostic;
+mod fault;
+mod key;
+mod layer;
+mod load;
+mod measure;
+mod overrides;
+mod parse;
+mod plain_value;
+mod render;
+mod resolved;
+mod roots;
+mod schema;
+mod source;
+mod suggest;
+mod tree;
+mod view;
+mod walk;
+mod words;
+
+pub use diagnostic::{Diagnostic, InvalidScenario};
+pub use fault::{Code, Severity};
+pub use load::{LoadOptions, RecordingPlan, Scenario};
+pub use render::render;

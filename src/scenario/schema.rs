@@ -1,0 +1,287 @@
+//! The table of keys: the whole scenario language on one page.
+
+use super::key::Kind::{
+    Choice, Count, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References, Section, Tag, Text, Vector, Windows,
+};
+use super::key::Length::{AtLeast, Exactly};
+use super::key::To::{Object, ObjectOfKind, Parameter};
+use super::key::{Key, PathTo, Preset, Shape, Variant};
+use super::measure::{above, within};
+
+/// The version of the language that this program reads and writes.
+pub(super) const SCHEMA_VERSION: i64 = 1;
+
+/// A scenario file.
+pub(super) const SCENARIO: Shape = Shape::plain(&[
+    Key::new("schema_version", Count(1, SCHEMA_VERSION), "version of the scenario language"),
+    Key::new("name", Name, "name of the scenario, also that of its run folder"),
+    Key::new("description", Text, "what it shows, in one line").or(Preset::Text("")),
+    Key::new("seed", Count(0, i64::MAX), "decides every random number of the run").or(Preset::Count(0)),
+    Key::new("parameters", Numbers, "task parameters: the setting in which the skill is executed").or_empty(),
+    Key::new("demonstrations", Path(PathTo::Dataset), "a recorded dataset, instead of [teaching]").optional(),
+    Key::new("robot", Section(ROBOT), "the robot, its postures and its joint controller").or_empty(),
+    Key::new("simulation", Section(SIMULATION), "the engine").or_empty(),
+    Key::new("object", List(OBJECT), "the scene").or_empty(),
+    Key::new("teaching", Section(TEACHING), "how the virtual human teaches").optional(),
+    Key::new("learning", Section(LEARNING), "how the skill is learned").or_empty(),
+    Key::new("coupling", Section(COUPLING), "the coupling of force error and motion").or_empty(),
+    Key::new("execution", Section(EXECUTION), "how the skill is executed").or_empty(),
+    Key::new("human", Section(HUMAN), "the virtual human").or_empty(),
+    Key::new("recording", Section(RECORDING), "what is written to the run folder").or_empty(),
+    Key::new("criterion", List(CRITERION), "what the run must show").or_empty(),
+]);
+
+const ROBOT: Shape = Shape::plain(&[
+    Key::new("urdf", Path(PathTo::Robot), "the robot's description").or(Preset::Text("builtin:baxter")),
+    Key::new("package_directories", Folders, "where package://NAME/ is looked up, besides the folders above the URDF file").or_empty(),
+    Key::new("tool_link", Text, "the link that is the tool, at the grasp centre; its arm works").or(Preset::Text("left_gripper_tool")),
+    Key::new("grasp_link", Text, "the link that a person takes hold of").or(Preset::Text("left_wrist")),
+    Key::new("idle_tool_link", Text, "the link that is the other arm's tool").or(Preset::Text("right_hand")),
+    Key::new("rest_posture_rad", Vector(within("rad", -7.0, 7.0), AtLeast(1)), "posture that inverse kinematics prefers, from the shoulder")
+        .or(Preset::Vector(&[-0.4347, -1.0645, -0.4138, 1.934, 0.2873, 0.7587, -0.2272])),
+    Key::new("idle_posture_rad", Vector(within("rad", -7.0, 7.0), AtLeast(0)), "posture that the other arm holds; empty without another arm")
+        .or(Preset::Vector(&[0.6, -0.6, 0.0, 1.6, 0.0, 0.6, 0.0])),
+    Key::new("impedance", Section(IMPEDANCE), "the joint controller of both arms").or_empty(),
+    Key::new("sensor", Section(SENSOR), "what is wrong with joints and wrench estimate").or_empty(),
+]);
+
+const IMPEDANCE: Shape = Shape::plain(&[
+    Key::new("stiffness_nm_per_rad", Vector(above("N m/rad", 0.0, 1e5), AtLeast(1)), "stiffness of each joint, from the shoulder")
+        .or(Preset::Vector(&[1500.0, 1500.0, 800.0, 800.0, 250.0, 250.0, 120.0])),
+    Key::new("damping_nms_per_rad", Vector(within("N m s/rad", 0.0, 1e4), AtLeast(1)), "damping of each joint, from the shoulder")
+        .or(Preset::Vector(&[60.0, 60.0, 30.0, 30.0, 8.0, 8.0, 4.0])),
+]);
+
+const SENSOR: Shape = Shape::plain(&[
+    Key::new("effort_noise_nm", Number(within("N m", 0.0, 5.0)), "white noise on each joint's effort, standard deviation").or_number(0.05),
+    Key::new("effort_bias_nm", Number(within("N m", 0.0, 5.0)), "constant offset of each joint's effort, standard deviation").or_number(0.1),
+    Key::new("dry_friction_nm", Number(within("N m", 0.0, 5.0)), "dry friction of each joint").or_number(0.1),
+    Key::new("dynamics_model", Choice(&["gravity", "full"]), "what the wrench estimate subtracts").or(Preset::Text("gravity")),
+    Key::new("filter_cutoff_hz", Number(within("Hz", 0.1, 500.0).or_infinite()), "low-pass on the wrench estimate").or_number(5.0),
+]);
+
+const SIMULATION: Shape = Shape::plain(&[
+    Key::new("step_s", Number(within("s", 1e-4, 2e-3)), "step of the engine and of the controller").or_number(1e-3),
+    Key::new("solver_iterations", Count(1, 16), "solver iterations per step").or(Preset::Count(1)),
+    Key::new("gravity_m_per_s2", Vector(within("m/s²", -100.0, 100.0), Exactly(3)), "acceleration of gravity, world axes")
+        .or(Preset::Vector(&[0.0, 0.0, -9.81])),
+    Key::new("log_rate_hz", Number(within("Hz", 1.0, 1e4)), "samples per second in step log and recording").or_number(100.0),
+]);
+
+const OBJECT: Shape = Shape {
+    keys: &[
+        Key::new("name", Name, "its name in reports, way-points and criteria"),
+        Key::new("kind", Tag, "what it is"),
+        Key::new("center_m", Vector(within("m", -3.0, 3.0), Exactly(2)), "centre in the horizontal plane (x forward, y left of the robot)"),
+        Key::new("lateral_offset_m", Quantity(within("m", -1.0, 1.0)), "added to the centre along x").or_number(0.0),
+    ],
+    variants: &[
+        Variant {
+            kind: "table",
+            keys: &[
+                Key::new("size_m", Vector(within("m", 0.01, 5.0), Exactly(2)), "extent along x and y"),
+                Key::new("top_height_m", Number(within("m", -2.0, 2.0)), "height of its top above the robot's base frame"),
+                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+            ],
+        },
+        Variant {
+            kind: "u_block",
+            keys: &[
+                Key::new("base_height_m", Quantity(within("m", 0.005, 1.0)), "height of the base above the table"),
+                Key::new("aperture_m", Number(within("m", 0.01, 2.0)), "free width between the posts, along x"),
+                Key::new("post_height_m", Number(within("m", 0.005, 1.0)), "height of the posts above the base"),
+                Key::new("post_width_m", Number(within("m", 0.001, 1.0)), "width of each post, along x").or_number(0.03),
+                Key::new("thickness_m", Number(within("m", 0.001, 1.0)), "extent along y").or_number(0.05),
+            ],
+        },
+        Variant {
+            kind: "ball",
+            keys: &[
+                Key::new("radius_m", Number(within("m", 0.001, 0.5)), "radius"),
+                Key::new("mass_kg", Number(within("kg", 0.001, 50.0)), "mass"),
+                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.8),
+                Key::new("rolling_damping_per_s", Number(within("1/s", 0.0, 1000.0)), "rolling resistance, as angular damping").or_number(5.0),
+            ],
+        },
+        Variant {
+            kind: "box",
+            keys: &[
+                Key::new("size_m", Vector(within("m", 0.001, 2.0), Exactly(3)), "extent along x, y, z"),
+                Key::new("mass_kg", Number(within("kg", 0.001, 50.0)), "mass"),
+                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+            ],
+        },
+        Variant {
+            kind: "basket",
+            keys: &[
+                Key::new("inner_size_m", Vector(within("m", 0.01, 2.0), Exactly(2)), "inner extent along x and y"),
+                Key::new("wall_height_m", Number(within("m", 0.001, 1.0)), "height of its walls"),
+                Key::new("wall_thickness_m", Number(within("m", 0.001, 0.2)), "thickness of walls and floor").or_number(0.005),
+            ],
+        },
+    ],
+};
+
+const TEACHING: Shape = Shape::plain(&[
+    Key::new("tool_yaw_rad", Number(within("rad", -7.0, 7.0)), "turn of the downward-pointing tool about the vertical").or_number(0.0),
+    Key::new("zero_gravity_damping_nms_per_rad", Number(within("N m s/rad", 0.0, 100.0)), "damping of the joints while a person leads the arm")
+        .or_number(2.0),
+    Key::new("duration_s", Number(within("s", 0.5, 600.0)), "how long a demonstration lasts").or_number(28.0),
+    Key::new("record_rate_hz", Number(within("Hz", 1.0, 1e4)), "samples per second of the dataset").or_number(100.0),
+    Key::new("position_spread_m", Number(within("m", 0.0, 0.2)), "spread of a way-point between demonstrations, per axis").or_number(0.0),
+    Key::new("timing_spread", Number(within("", 0.0, 0.2)), "spread of a way-point's time, as a fraction of the duration").or_number(0.0),
+    Key::new("grid", Grid, "values of parameters: each combination is one demonstration").or_empty(),
+    Key::new("waypoint", List(WAYPOINT), "where the person leads the gripper"),
+]);
+
+const WAYPOINT: Shape = Shape::plain(&[
+    Key::new("time_s", Number(within("s", 0.0, 600.0)), "when it is reached, from the start of the demonstration"),
+    Key::new("at", Reference(Object), "the object whose anchor the offset is relative to; the world's origin without one").optional(),
+    Key::new("offset_m", Vector(within("m", -3.0, 3.0), Exactly(3)), "offset from the anchor, world axes").or(Preset::Vector(&[0.0, 0.0, 0.0])),
+    Key::new("gripper", Number(within("", 0.0, 1.0)), "opening that is commanded from here on (0 closed … 1 open)").optional(),
+]);
+
+const LEARNING: Shape = Shape::plain(&[
+    Key::new("theta_m", References(Parameter), "parameters that the motion model is told").or_empty(),
+    Key::new("theta_f", References(Parameter), "parameters that the force model is told; none for a fixed one").or_empty(),
+    Key::new("shaping", Choice(&["phmm", "lwr"]), "what stands for the forcing term: the paper's model, or its baseline")
+        .or(Preset::Text("phmm")),
+    Key::new("stiffness", Number(within("", 1.0, 1e7)), "stiffness K of the movement primitive (1)").or_number(5000.0),
+    Key::new("alpha", Number(within("", 0.1, 20.0)), "decay of the phase (3)").or_number(2.0 * std::f64::consts::LN_10),
+    Key::new("phase_input", Choice(&["time_fraction", "phase"]), "what the models see of the phase").or(Preset::Text("time_fraction")),
+    Key::new("rate_hz", Number(within("Hz", 0.1, 1000.0)), "samples per second that are learned from").or_number(25.0),
+    Key::new("smoothing_window_s", Number(within("s", 0.001, 60.0)), "window that differentiates the movement").or_number(0.5),
+    Key::new("smoothing_degree", Count(2, 6), "degree of the polynomials in that window").or(Preset::Count(4)),
+    Key::new("gate_start", Number(within("", 0.5, 0.999)), "fraction of the duration from which the forcing fades out").or_number(0.94),
+    Key::new("lwr_basis", Count(2, 1000), "basis functions of the baseline").or(Preset::Count(100)),
+    Key::new("orientation_basis", Count(2, 500), "basis functions of the orientation").or(Preset::Count(40)),
+    Key::new("motion", Section(MOTION_MODEL), "the hidden Markov model of the motion").or_empty(),
+    Key::new("force", Section(FORCE_MODEL), "the hidden Markov model of the force").or_empty(),
+    Key::new("compliance", Section(COMPLIANCE), "where the skill complies (20)").or_empty(),
+]);
+
+const MOTION_MODEL: Shape = Shape::plain(&hidden_markov_model(16));
+const FORCE_MODEL: Shape = Shape::plain(&hidden_markov_model(10));
+
+const fn hidden_markov_model(states: i64) -> [Key; 8] {
+    [
+        Key::new("states", Count(1, 200), "number of states").or(Preset::Count(states)),
+        Key::new("topology", Choice(&["left_to_right", "ergodic"]), "which transitions exist").or(Preset::Text("left_to_right")),
+        Key::new("weights_on_phase", Flag, "whether parameters also move the phase at which a state sits").or(Preset::Flag(false)),
+        Key::new("ridge", Number(within("", 0.0, 1e6)), "strength of the prior W = 0, as a number of demonstrations").or_number(0.1),
+        Key::new("covariance_floor", Number(within("", 1e-12, 0.1)), "smallest eigenvalue of a covariance, columns scaled to 1").or_number(1e-5),
+        Key::new("kmeans_starts", Count(0, 1000), "starts by k-means, besides the two by time slices").or(Preset::Count(4)),
+        Key::new("max_iterations", Count(1, 100_000), "most iterations of each stage").or(Preset::Count(200)),
+        Key::new("tolerance", Number(within("", 0.0, 1.0)), "relative rise of the objective below which iterations stop").or_number(1e-6),
+    ]
+}
+
+const COMPLIANCE: Shape = Shape::plain(&[
+    Key::new("statistic", Choice(&["between_demonstration", "conditional", "literal"]), "which covariance of a state decides")
+        .or(Preset::Text("between_demonstration")),
+    Key::new("threshold_m2", NumberOrWord(above("m²", 0.0, 1e6), "automatic"), "a state complies when it exceeds this").or_number(1e-4),
+]);
+
+const COUPLING: Shape = Shape::plain(&[
+    Key::new("enabled", Flag, "whether force error moves the skill at all (16)").or(Preset::Flag(false)),
+    Key::new("compliance_m_per_n", Vector(within("m/N", 0.0, 10.0), AtLeast(1)), "displacement per force error: per axis, or one for all")
+        .or(Preset::Vector(&[0.01])),
+    Key::new("saturation_m", Number(within("m", 0.0, 10.0)), "largest displacement, per axis").or_number(0.1),
+    Key::new("convention", Choice(&["on_robot", "on_world"]), "whose force the wrench columns hold").or(Preset::Text("on_robot")),
+    Key::new("switching", Choice(&["smooth", "hard"]), "how the coupling goes on and off at the edges of a window").or(Preset::Text("smooth")),
+    Key::new("switching_ramp", Number(within("", 0.01, 100.0)), "length of the smooth edge, in units of 1/omega").or_number(1.0),
+]);
+
+const EXECUTION: Shape = Shape::plain(&[
+    Key::new("duration_s", Number(within("s", 0.5, 600.0)), "duration of the skill; that of the demonstrations without it").optional(),
+    Key::new("settle_s", Number(within("s", 0.0, 60.0)), "how long the run goes on before the world is judged").or_number(1.5),
+]);
+
+const HUMAN: Shape = Shape::plain(&[
+    Key::new("stiffness_n_per_m", Number(within("N/m", 1.0, 5000.0)), "stiffness of the hand").or_number(600.0),
+    Key::new("damping_ns_per_m", Number(within("N s/m", 0.0, 500.0)), "damping of the hand").or_number(60.0),
+    Key::new("rotational_stiffness_nm_per_rad", Number(within("N m/rad", 0.0, 500.0)), "rotational stiffness of the grip").or_number(30.0),
+    Key::new("rotational_damping_nms_per_rad", Number(within("N m s/rad", 0.0, 50.0)), "rotational damping of the grip").or_number(1.5),
+    Key::new("teaching_force_max_n", Number(within("N", 0.0, 200.0)), "largest force while teaching").or_number(40.0),
+    Key::new("moment_max_nm", Number(within("N m", 0.0, 50.0)), "largest moment of the grip").or_number(8.0),
+    Key::new("visual_gain_per_s", Number(within("1/s", 0.0, 20.0)), "rate of the visual correction").or_number(2.0),
+    Key::new("visual_correction_max_m", Number(within("m", 0.0, 0.5)), "largest visual correction").or_number(0.12),
+    Key::new("help", Section(HELP), "what the person does while the skill is executed").or_empty(),
+]);
+
+const HELP: Shape = Shape {
+    keys: &[Key::new("kind", Tag, "nothing, bringing the gripper over an object, or a given push").or(Preset::Text("none"))],
+    variants: &[
+        Variant { kind: "none", keys: &[] },
+        Variant {
+            kind: "guide",
+            keys: &[
+                Key::new("object", Reference(Object), "the object over which the person brings the gripper"),
+                Key::new("reach_m", Number(within("m", 0.0, 2.0)), "horizontal distance at which the person takes hold").or_number(0.12),
+                Key::new("force_max_n", Number(within("N", 0.0, 200.0)), "largest force").or_number(15.0),
+                Key::new("weight_xy", Vector(within("", 0.0, 1.0), Exactly(2)), "how much of the error along x and y the person corrects")
+                    .or(Preset::Vector(&[1.0, 1.0])),
+            ],
+        },
+        Variant {
+            kind: "push",
+            keys: &[
+                Key::new("force_n", Vector(within("N", -200.0, 200.0), Exactly(3)), "the force, world axes"),
+                Key::new("windows_s", Windows(within("s", 0.0, 660.0)), "start and end of each push, from the start of the skill"),
+            ],
+        },
+    ],
+};
+
+const RECORDING: Shape = Shape::plain(&[
+    Key::new("rrd", Flag, "recording.rrd, for the rerun viewer").or(Preset::Flag(true)),
+    Key::new("steps", Flag, "steps.parquet, one row per logged step").or(Preset::Flag(true)),
+    Key::new("demonstrations", Flag, "demonstrations/, the dataset that was learned from").or(Preset::Flag(true)),
+]);
+
+const CRITERION: Shape = Shape {
+    keys: &[
+        Key::new("name", Name, "its name in reports"),
+        Key::new("kind", Tag, "the question"),
+        Key::new("expect", Choice(&["pass", "fail", "report"]), "the answer that is expected").or(Preset::Text("pass")),
+    ],
+    variants: &[
+        Variant {
+            kind: "object_in_container",
+            keys: &[
+                Key::new("object", Reference(Object), "the object"),
+                Key::new("container", Reference(ObjectOfKind("basket")), "the basket"),
+                Key::new("speed_max_m_per_s", Number(within("m/s", 0.0, 10.0)), "largest speed that counts as rest").or_number(0.02),
+            ],
+        },
+        Variant { kind: "no_contact", keys: &[Key::new("objects", References(Object), "what must not be touched")] },
+        Variant {
+            kind: "clearance",
+            keys: &[
+                Key::new("objects", References(Object), "what must be kept away from"),
+                Key::new("min_m", Number(within("m", 0.0, 1.0)), "smallest distance"),
+            ],
+        },
+        Variant { kind: "goal_reached", keys: &[Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest distance to the goal")] },
+        Variant { kind: "human_force", keys: &[Key::new("max_n", Number(within("N", 0.0, 500.0)), "largest force of the person")] },
+        Variant {
+            kind: "compliance_window",
+            keys: &[Key::new("ends_before", Reference(Object), "the object before which the arm must be stiff again")],
+        },
+        Variant {
+            kind: "gripper_over_object",
+            keys: &[
+                Key::new("object", Reference(Object), "the object"),
+                Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest horizontal distance when the gripper closes"),
+            ],
+        },
+        Variant {
+            kind: "reference_unmoved",
+            keys: &[Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest displacement of the reference while the person pushes")],
+        },
+        Variant {
+            kind: "gripper_unmoved",
+            keys: &[Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest displacement of the gripper while the person pushes")],
+        },
+    ],
+};

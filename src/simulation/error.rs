@@ -1,0 +1,42 @@
+//! Why an experiment could not be carried out.
+
+use crate::control::ArmModelError;
+use crate::demonstration::DemonstrationError;
+use crate::learning::LearningError;
+use crate::robot::UrdfError;
+use crate::world::WorldError;
+
+/// Why an experiment could not be carried out.
+#[derive(Debug, thiserror::Error)]
+pub enum SimulationError {
+    /// The robot's description cannot be used.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// The robot lacks an arm or a link.
+    #[error(transparent)]
+    Arm(#[from] ArmModelError),
+    /// A pose of the plan cannot be reached.
+    #[error("{what} cannot be reached: the arm ends {position_mm:.1} mm and {angle_deg:.1} deg away{}; move the object or the way-point", limit.as_ref().map_or_else(String::new, |joint| format!(", with joint `{joint}` at its limit")))]
+    Unreachable {
+        /// Which pose.
+        what: String,
+        /// How far it stays away (mm).
+        position_mm: f64,
+        /// By how much it is turned (deg).
+        angle_deg: f64,
+        /// The joint that stops it.
+        limit: Option<String>,
+    },
+    /// The world could not be built, or diverged.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The demonstrations cannot be used.
+    #[error(transparent)]
+    Demonstrations(#[from] DemonstrationError),
+    /// Nothing could be learned.
+    #[error(transparent)]
+    Learning(#[from] LearningError),
+    /// The recorded demonstrations do not fit the experiment.
+    #[error("the demonstrations do not fit the scenario: {0}")]
+    Mismatch(String),
+}

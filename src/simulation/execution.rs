@@ -1,0 +1,123 @@
+//! Execution: the learned skill runs in a setting that was never shown, and the person may help.
+
+use nalgebra::{Isometry3, Translation3};
+
+use super::person::helper;
+use super::setup::Setup;
+use super::step_loop::{Published, StepLoop};
+use super::{FinalObject, SimulationError, StepRecord};
+use crate::control::{Controller, SkillController};
+use crate::learning::{ExecutionSettings, Skill, SkillExecution};
+use crate::world::{Clearance, ContactEpisode, World, pointing_down};
+
+/// What an execution left behind.
+pub(super) struct Executed {
+    pub records: Vec<StepRecord>,
+    pub collisions: Vec<ContactEpisode>,
+    pub clearances: Vec<Clearance>,
+    pub final_objects: Vec<FinalObject>,
+    pub state_hash: u64,
+    pub steps: u64,
+}
+
+/// Number of the execution among the runs that draw sensor noise: no lesson or replay has it.
+const EXECUTION_RUN: u64 = u64::MAX;
+
+/// Executes `skill` in the experiment's setting.
+pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, SimulationError> {
+    let experiment = &setup.experiment;
+    let query = settings(setup);
+    let execution = SkillExecution::new(skill, &query)?;
+    let duration = execution.duration_s();
+    let start = execution.state();
+    let orientation = start.orientation.unwrap_or_else(|| pointing_down(0.0));
+    let place = Translation3::new(start.position[0], start.position[1], start.position[2]);
+    let posture = setup.posture(&Isometry3::from_parts(place, orientation), "the skill's start")?;
+
+    let mut world = setup.world(&experiment.parameters, &posture, true)?;
+    let step_s = experiment.physics.step_s;
+    let mut controller = SkillController::new(skill, execution, setup.tracker(), setup.observer(), orientation, step_s);
+    let names: Vec<String> = experiment.objects.iter().map(|object| object.name.clone()).collect();
+    let mut person = helper(&experiment.execution.help, &experiment.human, &names);
+    let steps = setup.steps(duration + experiment.execution.settle_s) + 1;
+    let every = setup.steps(1.0 / experiment.log_rate_hz).max(1);
+    let mut records = Vec::with_capacity((steps / every) as usize + 1);
+    let mut hold = setup.hold();
+    let mut run = StepLoop {
+        world: &mut world,
+        controller: &mut controller,
+        person: person.as_mut(),
+        sensors: &mut setup.sensors(EXECUTION_RUN),
+        idle: hold.as_mut(),
+        step_s,
+    };
+    run.run(
+        steps,
+        |_, _| {},
+        |now| {
+            if now.world.step().is_multiple_of(every) {
+                records.push(record(now, names.len()));
+            }
+        },
+    )?;
+    Ok(Executed {
+        records,
+        collisions: world.contacts().to_vec(),
+        clearances: world.clearances().to_vec(),
+        final_objects: final_objects(&world, &names),
+        state_hash: world.state_hash(),
+        steps,
+    })
+}
+
+/// The question that the experiment puts to the skill.
+pub(super) fn settings(setup: &Setup) -> ExecutionSettings {
+    let experiment = &setup.experiment;
+    let theta = |names: &[String]| names.iter().filter_map(|name| Some((name.clone(), experiment.parameters.get(name)?))).collect();
+    ExecutionSettings {
+        theta_m: theta(&experiment.theta_m),
+        theta_f: theta(&experiment.theta_f),
+        start: None,
+        goal: None,
+        duration_s: experiment.execution.duration_s,
+        coupling: experiment.execution.coupling.clone(),
+    }
+}
+
+fn final_objects(world: &World, names: &[String]) -> Vec<FinalObject> {
+    let object = |(index, name): (usize, &String)| FinalObject {
+        name: name.clone(),
+        position: world.object_pose(index).translation.vector.into(),
+        speed_m_per_s: world.object_speed(index),
+    };
+    names.iter().enumerate().map(object).collect()
+}
+
+fn record(now: &Published<SkillController>, objects: usize) -> StepRecord {
+    let telemetry = now.controller.telemetry();
+    let mut bodies = Vec::new();
+    now.world.robot_poses(&mut bodies);
+    StepRecord {
+        step: now.world.step(),
+        time_s: now.world.time_s(),
+        joint_position: now.observation.position.clone(),
+        joint_velocity: now.observation.velocity.clone(),
+        joint_torque: now.observation.effort.clone(),
+        tool: now.world.tool_pose(),
+        reference: telemetry.reference,
+        wrench: telemetry.wrench,
+        expected_force: telemetry.expected_force,
+        coupling_displacement: telemetry.coupling_displacement,
+        phase: telemetry.phase,
+        time_fraction: telemetry.time_fraction,
+        state: telemetry.state,
+        beta: telemetry.beta,
+        activation: telemetry.activation,
+        gripper_command: now.command.gripper,
+        gripper_opening: now.observation.gripper_opening,
+        human: now.hand,
+        bodies,
+        objects: (0..objects).map(|index| now.world.object_pose(index)).collect(),
+        kinetic_energy_j: now.world.kinetic_energy_j(),
+    }
+}

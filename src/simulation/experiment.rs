@@ -1,0 +1,144 @@
+//! Everything that decides an experiment, as plain data: scenario files are one way of writing it down.
+
+use std::path::PathBuf;
+
+use crate::control::ImpedanceSettings;
+use crate::learning::LearningSettings;
+use crate::learning::cpdmp::CouplingSettings;
+use crate::world::{HumanSettings, Object, Parameters, PhysicsSettings, SensorSettings};
+
+/// One experiment: who teaches what to which robot in which scene, and how the skill is executed.
+#[derive(Clone, Debug)]
+pub struct Experiment {
+    /// Its name, also that of its run folder.
+    pub name: String,
+    /// Decides every random number of the run.
+    pub seed: u64,
+    /// The setting in which the skill is executed.
+    pub parameters: Parameters,
+    /// The robot and its controller.
+    pub robot: RobotSettings,
+    /// The engine's step.
+    pub physics: PhysicsSettings,
+    /// The scene.
+    pub objects: Vec<Object>,
+    /// The person: their hand's strength and stiffness.
+    pub human: HumanSettings,
+    /// Where the demonstrations come from.
+    pub demonstrations: DemonstrationSource,
+    /// Which parameters the motion model is told (`theta_m`), by name.
+    pub theta_m: Vec<String>,
+    /// Which parameters the force model is told (`theta_f`), by name; empty for a fixed one.
+    pub theta_f: Vec<String>,
+    /// How the skill is learned.
+    pub learning: LearningSettings,
+    /// How it is executed.
+    pub execution: ExecutionPlan,
+    /// Samples per second in the step log and the recording (Hz); contacts and clearances are judged at every step regardless.
+    pub log_rate_hz: f64,
+}
+
+/// Where the demonstrations come from.
+#[derive(Clone, Debug)]
+pub enum DemonstrationSource {
+    /// The virtual human teaches them in this run.
+    Teach(TeachingPlan),
+    /// A recorded dataset.
+    Dataset(PathBuf),
+}
+
+/// The robot, its posture and its joint controller.
+#[derive(Clone, Debug)]
+pub struct RobotSettings {
+    /// A URDF file, or `None` for the built-in Baxter.
+    pub urdf: Option<PathBuf>,
+    /// Where `package://NAME/` is looked up besides the folders above the URDF file.
+    pub package_directories: Vec<PathBuf>,
+    /// Link that is the tool, at the grasp centre; the arm that carries it works.
+    pub tool_link: String,
+    /// Link that a person takes hold of.
+    pub grasp_link: String,
+    /// Link that is the other arm's tool; that arm holds `idle_posture_rad`.
+    pub idle_tool_link: String,
+    /// The posture that inverse kinematics prefers, joint by joint from the shoulder (rad).
+    pub rest_posture_rad: Vec<f64>,
+    /// The posture that the other arm holds (rad).
+    pub idle_posture_rad: Vec<f64>,
+    /// The joint impedance of both arms.
+    pub impedance: ImpedanceSettings,
+    /// What is wrong with joints and wrench estimate.
+    pub sensor: SensorSettings,
+}
+
+/// How the virtual human teaches.
+#[derive(Clone, Debug)]
+pub struct TeachingPlan {
+    /// Values of task parameters; every combination is one demonstration, the last parameter varying fastest.
+    pub grid: Vec<(String, Vec<f64>)>,
+    /// Turn of the downward-pointing tool about the vertical (rad): at pi/2 the fingers open along x.
+    pub tool_yaw_rad: f64,
+    /// Damping of the joints while the arm is in zero gravity (N m s/rad).
+    pub zero_gravity_damping_nms_per_rad: f64,
+    /// How long a demonstration lasts (s).
+    pub duration_s: f64,
+    /// Samples per second of the dataset (Hz).
+    pub record_rate_hz: f64,
+    /// One standard deviation of a way-point's place from demonstration to demonstration, per axis (m).
+    pub position_spread_m: f64,
+    /// One standard deviation of a way-point's time, as a fraction of the duration.
+    pub timing_spread: f64,
+    /// Where the person leads the gripper, in the order of time.
+    pub waypoints: Vec<Waypoint>,
+}
+
+/// A place through which the person leads the grasp centre of the gripper, tool pointing down.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Waypoint {
+    /// When it is reached, from the start of the demonstration (s).
+    pub time_s: f64,
+    /// The object whose anchor the offset is relative to (see [`Object::anchor`]); the world's origin without one.
+    pub at: Option<String>,
+    /// Offset from the anchor, world axes (m).
+    pub offset_m: [f64; 3],
+    /// The opening that is commanded to the gripper from here on (0 closed, 1 open); unchanged without one.
+    pub gripper: Option<f64>,
+}
+
+/// How the learned skill is executed.
+#[derive(Clone, Debug)]
+pub struct ExecutionPlan {
+    /// The coupling (17)–(19) between force error and motion.
+    pub coupling: CouplingSettings,
+    /// Start, goal: taken from the demonstrations by regression. Duration (s): that of the demonstrations unless given.
+    pub duration_s: Option<f64>,
+    /// How long the run goes on after the skill's end before the world is judged (s).
+    pub settle_s: f64,
+    /// What the person does meanwhile.
+    pub help: Help,
+}
+
+/// What the person does while the skill is executed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Help {
+    /// Nothing.
+    None,
+    /// Brings the gripper over an object that they see, horizontally, from when the gripper comes near until it closes.
+    Guide {
+        /// The object's name.
+        object: String,
+        /// Horizontal distance from gripper to object at which the person takes hold (m).
+        reach_m: f64,
+        /// The largest force (N).
+        force_max_n: f64,
+        /// How much of the error along x and along y the person corrects (0 … 1): somebody who knows that the arm is on its way to the toy
+        /// pushes sideways only.
+        weight_xy: [f64; 2],
+    },
+    /// Pushes with a given force in given windows of time, rising and falling smoothly.
+    Push {
+        /// The force in world axes (N).
+        force_n: [f64; 3],
+        /// Start and end of each push, from the start of the skill (s).
+        windows_s: Vec<[f64; 2]>,
+    },
+}

@@ -1,0 +1,25 @@
+//! Experiments: teach, replay, learn, execute. The only room that knows both the world and the controllers.
+//!
+//! Data flows one way: an [`Experiment`] goes in, a [`RunOutcome`] comes out, and everything told about a step is a [`StepRecord`].
+
+mod error;
+mod execution;
+mod experiment;
+mod guide_path;
+mod outcome;
+mod person;
+mod progress;
+mod replay;
+mod run;
+mod setup;
+mod step_loop;
+mod step_record;
+mod teaching;
+
+pub use error::SimulationError;
+pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings, TeachingPlan, Waypoint};
+pub use outcome::{AppliedForce, FinalObject, PhaseSummary, RunOutcome};
+pub use progress::{Progress, Silent};
+pub use run::run;
+pub use setup::Setup;
+pub use step_record::StepRecord;

@@ -1,0 +1,20 @@
+//! How a run says where it is. Nothing it says depends on who listens.
+
+/// Somebody who wants to know how far a run is. Called from several threads.
+pub trait Progress: Sync {
+    /// A phase begins that will take this many steps.
+    fn phase(&self, name: &str, steps: u64);
+    /// Steps have been taken.
+    fn advance(&self, steps: u64);
+    /// Something worth a line.
+    fn note(&self, text: &str);
+}
+
+/// Nobody listens.
+pub struct Silent;
+
+impl Progress for Silent {
+    fn phase(&self, _name: &str, _steps: u64) {}
+    fn advance(&self, _steps: u64) {}
+    fn note(&self, _text: &str) {}
+}

@@ -1,0 +1,123 @@
+//! What every run of an experiment starts from: robot, arm models, worlds.
+
+use std::path::Path;
+
+use nalgebra::Isometry3;
+
+use super::{Experiment, RobotSettings, SimulationError};
+use crate::control::{ArmModel, HoldPosture, PoseTracker, WrenchObserver};
+use crate::robot::baxter::{LEFT_HAND, LEFT_TOOL};
+use crate::robot::{self, Finding, LoadOptions, Loaded, RobotModel};
+use crate::world::{EffortSensors, Parameters, World, WorldSettings};
+
+/// An experiment with its robot loaded.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The experiment.
+    pub experiment: Experiment,
+    /// Its robot.
+    pub robot: RobotModel,
+    /// What is odd about the robot's file, though it can be used.
+    pub warnings: Vec<Finding>,
+    arm: ArmModel,
+    idle: Option<ArmModel>,
+}
+
+/// The robot of a file. When it lacks the tool and has Baxter's left hand, the electric gripper is mounted there.
+fn load(path: &Path, settings: &RobotSettings) -> Result<Loaded, SimulationError> {
+    let options = LoadOptions { package_directories: settings.package_directories.clone(), ..LoadOptions::default() };
+    let bare = robot::load(path, &options)?;
+    let has = |link: &str| bare.model.frame(link).is_some();
+    if has(&settings.tool_link) || settings.tool_link != LEFT_TOOL || !has(LEFT_HAND) {
+        return Ok(bare);
+    }
+    Ok(robot::load(path, &LoadOptions { attachments: vec![robot::electric_gripper()], ..options })?)
+}
+
+/// Seconds between two measurements of the clearances.
+const CLEARANCE_INTERVAL_S: f64 = 0.005;
+
+impl Setup {
+    /// Loads the robot of `experiment`.
+    ///
+    /// # Errors
+    /// When the robot's file cannot be used or lacks the links that the experiment names.
+    pub fn new(experiment: &Experiment) -> Result<Self, SimulationError> {
+        let settings = &experiment.robot;
+        let loaded = match &settings.urdf {
+            None => robot::baxter(),
+            Some(path) => load(path, settings)?,
+        };
+        let arm = ArmModel::new(&loaded.model, &settings.tool_link, &settings.rest_posture_rad, experiment.physics.gravity_m_per_s2)?;
+        let idle = match settings.idle_posture_rad.is_empty() {
+            true => None,
+            false => Some(ArmModel::new(&loaded.model, &settings.idle_tool_link, &settings.idle_posture_rad, experiment.physics.gravity_m_per_s2)?),
+        };
+        Ok(Self { experiment: experiment.clone(), robot: loaded.model, warnings: loaded.warnings, arm, idle })
+    }
+
+    /// A copy of the working arm's model.
+    pub(super) fn arm(&self) -> ArmModel {
+        self.arm.clone()
+    }
+
+    /// A controller of the other arm.
+    pub(super) fn hold(&self) -> Option<HoldPosture> {
+        let settings = &self.experiment.robot;
+        self.idle.clone().map(|model| HoldPosture::new(model, settings.impedance.clone(), settings.idle_posture_rad.clone()))
+    }
+
+    /// A tracker of tool poses.
+    pub(super) fn tracker(&self) -> PoseTracker {
+        PoseTracker::new(self.arm(), self.experiment.robot.impedance.clone(), self.experiment.physics.step_s)
+    }
+
+    /// The wrench estimate of the working arm.
+    pub(super) fn observer(&self) -> WrenchObserver {
+        let sensor = &self.experiment.robot.sensor;
+        WrenchObserver::new(self.arm(), sensor.model, sensor.filter_cutoff_hz, self.experiment.physics.step_s)
+    }
+
+    /// The effort sensors in run number `run`.
+    pub(super) fn sensors(&self, run: u64) -> EffortSensors {
+        EffortSensors::new(&self.experiment.robot.sensor, self.arm.joints(), self.experiment.seed, run)
+    }
+
+    /// Joint angles at which the tool is at `base_from_tool`; `what` names the pose in the error.
+    pub(super) fn posture(&self, base_from_tool: &Isometry3<f64>, what: &str) -> Result<Vec<f64>, SimulationError> {
+        let mut arm = self.arm();
+        let mut q = vec![0.0; arm.joints()];
+        let outcome = arm.reach(base_from_tool, &mut q);
+        if outcome.converged {
+            return Ok(q);
+        }
+        Err(SimulationError::Unreachable {
+            what: what.into(),
+            position_mm: outcome.position_error_m * 1e3,
+            angle_deg: outcome.orientation_error_rad.to_degrees(),
+            limit: outcome.limiting_joint.map(|index| arm.joint_name(index).to_owned()),
+        })
+    }
+
+    /// The world in the setting `parameters` with the working arm at `posture_rad`; `watch` measures clearances.
+    pub(super) fn world(&self, parameters: &Parameters, posture_rad: &[f64], watch: bool) -> Result<World, SimulationError> {
+        let settings = &self.experiment.robot;
+        Ok(World::new(&WorldSettings {
+            physics: &self.experiment.physics,
+            robot: &self.robot,
+            tool: &settings.tool_link,
+            grasp: &settings.grasp_link,
+            posture_rad,
+            idle_posture_rad: &settings.idle_posture_rad,
+            dry_friction_nm: settings.sensor.dry_friction_nm,
+            objects: &self.experiment.objects,
+            parameters,
+            clearance_interval_s: if watch { CLEARANCE_INTERVAL_S } else { 0.0 },
+        })?)
+    }
+
+    /// Number of steps in `seconds`.
+    pub(super) fn steps(&self, seconds: f64) -> u64 {
+        (seconds / self.experiment.physics.step_s).round() as u64
+    }
+}

@@ -1,0 +1,52 @@
+//! What is told about one step of a run: the only thing that checks, recordings and logs ever see of it.
+
+use nalgebra::{Isometry3, Vector3, Vector6};
+
+use super::AppliedForce;
+
+/// One logged step. World frame, SI.
+#[derive(Clone, Debug)]
+pub struct StepRecord {
+    /// Number of the engine step since the start of the phase.
+    pub step: u64,
+    /// Simulated time since the start of the phase (s).
+    pub time_s: f64,
+    /// Joint angles of the working arm (rad).
+    pub joint_position: Vec<f64>,
+    /// Joint velocities (rad/s).
+    pub joint_velocity: Vec<f64>,
+    /// Commanded joint torques after all limits (N m).
+    pub joint_torque: Vec<f64>,
+    /// Where the tool frame (grasp centre) is.
+    pub tool: Isometry3<f64>,
+    /// Where the controller wants it.
+    pub reference: Isometry3<f64>,
+    /// The controller's wrench estimate at the tool: force (N) then torque (N m), by the environment on the tool.
+    pub wrench: Vector6<f64>,
+    /// What the force model expects (N); zero without one.
+    pub expected_force: Vector3<f64>,
+    /// The coupling term's displacement zeta/K (m).
+    pub coupling_displacement: Vector3<f64>,
+    /// Phase s of the canonical system, and elapsed fraction u of the duration.
+    pub phase: f64,
+    /// Elapsed fraction of the duration, u = t / tau.
+    pub time_fraction: f64,
+    /// Active HMM state.
+    pub state: usize,
+    /// Its beta: 0 stiff, -1 complies, +1 minimises the force error.
+    pub beta: f64,
+    /// How far the coupling is switched on (0 … 1).
+    pub activation: f64,
+    /// Commanded opening of the gripper (0 closed … 1 open).
+    pub gripper_command: f64,
+    /// Measured opening of the gripper (0 … 1).
+    pub gripper_opening: f64,
+    /// What the person does.
+    pub human: AppliedForce,
+    /// Poses of the robot's bodies in the order of [`crate::robot::RobotModel::bodies`].
+    pub bodies: Vec<Isometry3<f64>>,
+    /// Poses of the scene's objects in the order of the experiment.
+    pub objects: Vec<Isometry3<f64>>,
+    /// Kinetic energy of the robot and the objects (J).
+    pub kinetic_energy_j: f64,
+}

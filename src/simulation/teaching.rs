@@ -1,0 +1,117 @@
+//! Teaching: a person leads the weightless arm; what its encoders saw is the demonstration.
+
+use nalgebra::{DMatrix, Isometry3};
+
+use super::guide_path::GuidePath;
+use super::person::Teacher;
+use super::setup::Setup;
+use super::step_loop::StepLoop;
+use super::{SimulationError, TeachingPlan};
+use crate::control::{ArmModel, ToolPath, ZeroGravity};
+use crate::demonstration::{Demonstration, Trajectory};
+use crate::math;
+use crate::world::{Parameters, pointing_down};
+
+/// One demonstration as it was led, before its wrench is known.
+#[derive(Clone, Debug)]
+pub(super) struct Lesson {
+    /// Its number in the grid.
+    pub number: u64,
+    /// Name, from the task parameters.
+    pub name: String,
+    /// The setting in which it was led.
+    pub parameters: Parameters,
+    /// Joint angles at the start (rad).
+    pub start_posture: Vec<f64>,
+    /// What the encoders saw.
+    pub path: ToolPath,
+    /// Hash of the world's states.
+    pub state_hash: u64,
+    /// Engine steps.
+    pub steps: u64,
+}
+
+/// Every combination of the grid's values, the last parameter varying fastest.
+pub(super) fn settings_of(plan: &TeachingPlan, base: &Parameters) -> Vec<Parameters> {
+    plan.grid.iter().fold(vec![base.clone()], |settings, (name, values)| {
+        settings.iter().flat_map(|s| values.iter().map(|v| s.with(&[(name.clone(), *v)]))).collect()
+    })
+}
+
+/// Teaches demonstration `number` in the setting `parameters`.
+pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters, number: u64) -> Result<Lesson, SimulationError> {
+    let experiment = &setup.experiment;
+    let mut variation = math::stream(experiment.seed, "human", number);
+    let path = GuidePath::new(plan, &experiment.objects, parameters, &mut variation);
+    let orientation = pointing_down(plan.tool_yaw_rad);
+    let start = Isometry3::from_parts(path.at(0.0).0.into(), orientation);
+    let start_posture = setup.posture(&start, "the first way-point")?;
+    let mut world = setup.world(parameters, &start_posture, false)?;
+    let mut teacher = Teacher::new(&experiment.human, path.clone(), orientation, &world);
+    let mut controller = ZeroGravity::new(setup.arm(), plan.zero_gravity_damping_nms_per_rad);
+    let steps = setup.steps(plan.duration_s);
+    let every = setup.steps(1.0 / plan.record_rate_hz).max(1);
+    let mut recorder = PathRecorder { arm: setup.arm(), path: ToolPath { times_s: Vec::new(), poses: Vec::new(), gripper: Vec::new() } };
+    let mut hold = setup.hold();
+    let mut run = StepLoop {
+        world: &mut world,
+        controller: &mut controller,
+        person: &mut teacher,
+        sensors: &mut setup.sensors(2 * number),
+        idle: hold.as_mut(),
+        step_s: experiment.physics.step_s,
+    };
+    run.run(
+        steps + 1,
+        |controller, world| controller.gripper = path.at(world.time_s()).2,
+        |now| {
+            if now.world.step().is_multiple_of(every) {
+                recorder.record(now.observation.time_s, &now.observation.position, now.command.gripper);
+            }
+        },
+    )?;
+    let name = demonstration_name(plan, parameters);
+    Ok(Lesson { number, name, parameters: parameters.clone(), start_posture, path: recorder.path, state_hash: world.state_hash(), steps: steps + 1 })
+}
+
+/// Joins what was led with the wrench (6 numbers per sample) measured when it was replayed.
+pub(super) fn demonstration(setup: &Setup, lesson: &Lesson, wrench: &[[f64; 6]]) -> Result<Demonstration, SimulationError> {
+    let path = &lesson.path;
+    let samples = path.times_s.len().min(wrench.len());
+    let values = DMatrix::from_fn(samples, COLUMNS.len(), |i, j| {
+        let (p, q) = (&path.poses[i].translation.vector, &path.poses[i].rotation.coords);
+        match j {
+            0..=2 => p[j],
+            3..=6 => q[j - 3],
+            7..=12 => wrench[i][j - 7],
+            _ => path.gripper[i],
+        }
+    });
+    let columns = COLUMNS.iter().map(|name| (*name).to_owned()).collect();
+    let trajectory = Trajectory::new(path.times_s[..samples].to_vec(), columns, values)?;
+    let theta = |names: &[String]| names.iter().filter_map(|name| Some((name.clone(), lesson.parameters.get(name)?))).collect();
+    let experiment = &setup.experiment;
+    Ok(Demonstration { name: lesson.name.clone(), trajectory, theta_m: theta(&experiment.theta_m), theta_f: theta(&experiment.theta_f) })
+}
+
+/// Columns of a taught demonstration besides time.
+const COLUMNS: [&str; 14] = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw", "fx_n", "fy_n", "fz_n", "tx_nm", "ty_nm", "tz_nm", "gripper"];
+
+/// `block_height_0.17_toy_lateral_-0.06`.
+fn demonstration_name(plan: &TeachingPlan, parameters: &Parameters) -> String {
+    let part = |name: &String| format!("{}_{}", name.trim_end_matches("_m"), parameters.get(name).unwrap_or(f64::NAN));
+    plan.grid.iter().map(|(name, _)| part(name)).collect::<Vec<_>>().join("_")
+}
+
+struct PathRecorder {
+    arm: ArmModel,
+    path: ToolPath,
+}
+
+impl PathRecorder {
+    fn record(&mut self, time_s: f64, q: &[f64], gripper: f64) {
+        self.path.times_s.push(time_s);
+        self.path.poses.push(self.arm.tool_pose(q));
+        self.path.gripper.push(gripper);
+    }
+}

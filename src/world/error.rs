@@ -1,0 +1,34 @@
+//! What can go wrong with a world.
+
+/// Why a world cannot be built or has stopped.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum WorldError {
+    /// The robot lacks something that the scene needs.
+    #[error("the robot `{robot}` has no {what}; {help}")]
+    Robot {
+        /// The robot's name.
+        robot: String,
+        /// What is missing.
+        what: String,
+        /// What to do about it.
+        help: String,
+    },
+    /// A shape could not be turned into a collider.
+    #[error("the collision geometry of `{part}` cannot be used: {reason}")]
+    Geometry {
+        /// The link or object.
+        part: String,
+        /// Why.
+        reason: String,
+    },
+    /// A body's state left the finite numbers.
+    #[error("the simulation diverged at step {step} ({time_s:.3} s): body {body} is no longer finite; try a smaller `step_s`")]
+    Diverged {
+        /// Number of the step.
+        step: u64,
+        /// Its time (s).
+        time_s: f64,
+        /// The first body.
+        body: String,
+    },
+}

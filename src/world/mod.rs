@@ -1,0 +1,27 @@
+//! The simulated world: the engine, the robot in it, the scene, and the person.
+//!
+//! Frame: the robot's base frame (x forward, y left, z up); SI units. This is the only room that knows the physics engine.
+
+mod articulation;
+mod contacts;
+mod clearance;
+mod convert;
+mod error;
+mod object;
+mod parts;
+mod physics;
+mod robot_body;
+mod scene;
+mod sensors;
+mod simulated_world;
+mod virtual_human;
+
+pub use clearance::Clearance;
+pub use contacts::ContactEpisode;
+pub use error::WorldError;
+pub use object::{Object, ObjectKind, Parameters, Quantity, support_height_m};
+pub use physics::PhysicsSettings;
+pub use scene::{ObjectPart, PartShape, initial_pose, object_parts};
+pub use sensors::{EffortSensors, SensorSettings};
+pub use simulated_world::{World, WorldSettings};
+pub use virtual_human::{GraspState, Hand, HandWrench, HumanSettings, pointing_down};

@@ -1,0 +1,44 @@
+//! The names of everything that can be touched, and who may touch whom.
+
+/// Whose part it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Owner {
+    /// A body of the robot model; `finger` when it may touch what is grasped.
+    Robot {
+        /// Index in [`crate::robot::RobotModel::bodies`].
+        body: usize,
+        /// A finger of the gripper.
+        finger: bool,
+        /// A link of the arm that works.
+        working: bool,
+    },
+    /// An object of the scene.
+    Object(usize),
+}
+
+/// A part that can be touched.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    /// Its name in reports: `left_hand`, `block_1.near_post`.
+    pub name: String,
+    /// Whose part it is.
+    pub owner: Owner,
+}
+
+/// All parts; a collider's user data is its index here.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Parts(Vec<Part>);
+
+impl Parts {
+    /// Adds a part and returns its index.
+    pub(crate) fn add(&mut self, part: Part) -> usize {
+        self.0.push(part);
+        self.0.len() - 1
+    }
+
+    /// The part of a collider's user data.
+    pub(crate) fn of(&self, user_data: u128) -> Option<(usize, &Part)> {
+        let index = usize::try_from(user_data).ok()?;
+        self.0.get(index).map(|part| (index, part))
+    }
+}

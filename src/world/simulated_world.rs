@@ -1,0 +1,339 @@
+//! One world: what it takes from controller and person in a step, and what can be seen of it.
+
+use std::hash::Hasher;
+
+use nalgebra::{DMatrix, Isometry3, Vector3};
+use rapier3d_f64::prelude::{PhysicsWorld, RigidBody, RigidBodyHandle};
+use twox_hash::XxHash3_64;
+
+use super::clearance::ClearanceBook;
+use super::contacts::ContactBook;
+use super::parts::Parts;
+use super::robot_body::{Limbs, RobotBody};
+use super::{Clearance, ContactEpisode, GraspState, HandWrench, Object, ObjectKind, Parameters, PhysicsSettings, WorldError, convert, physics, scene};
+use crate::robot::{JointCommand, RobotModel};
+
+/// What a world is made of.
+#[derive(Clone, Debug)]
+pub struct WorldSettings<'a> {
+    /// The engine's step.
+    pub physics: &'a PhysicsSettings,
+    /// The robot; its base frame is the world's.
+    pub robot: &'a RobotModel,
+    /// Link of the robot that is the tool (the grasp centre); the arm that carries it works.
+    pub tool: &'a str,
+    /// Link that a person takes hold of.
+    pub grasp: &'a str,
+    /// The working arm's posture at the start (rad).
+    pub posture_rad: &'a [f64],
+    /// The other arm's posture (rad).
+    pub idle_posture_rad: &'a [f64],
+    /// Dry friction of each joint of the working arm, besides the robot's own (N m).
+    pub dry_friction_nm: f64,
+    /// The scene.
+    pub objects: &'a [Object],
+    /// The setting.
+    pub parameters: &'a Parameters,
+    /// Seconds between two measurements of the clearances; 0 measures none.
+    pub clearance_interval_s: f64,
+}
+
+/// The simulated world.
+pub struct World {
+    engine: PhysicsWorld,
+    parts: Parts,
+    robot: RobotBody,
+    limbs: Limbs,
+    objects: Vec<RigidBodyHandle>,
+    movable: Vec<bool>,
+    finger_range: Option<(f64, f64)>,
+    contacts: ContactBook,
+    clearance: ClearanceBook,
+    clearance_every: u64,
+    held: Vec<usize>,
+    joint_state: (Vec<f64>, Vec<f64>),
+    hand: HandWrench,
+    hasher: XxHash3_64,
+    step: u64,
+}
+
+impl World {
+    /// Builds the world at time 0.
+    ///
+    /// # Errors
+    /// When the robot lacks the tool, the grasp or an arm, or a collision shape cannot be used.
+    pub fn new(settings: &WorldSettings) -> Result<Self, WorldError> {
+        let mut engine = physics::engine(settings.physics);
+        let mut parts = Parts::default();
+        let model = settings.robot;
+        let limbs = Limbs::find(model, settings.tool, settings.grasp, settings.idle_posture_rad.len())?;
+        let (working_q, finger_range) = starting_positions(model, &limbs, settings.posture_rad)?;
+        let mut robot = RobotBody::new(&mut engine, model, &limbs, &working_q, settings.idle_posture_rad, &mut parts)?;
+        for &dof in &limbs.arm {
+            let own = model.joints[limbs.working[dof]].friction;
+            robot.working.set_friction(&mut engine, dof, own + settings.dry_friction_nm);
+        }
+        let objects = scene::build(&mut engine, settings.objects, settings.parameters, &mut parts);
+        let movable: Vec<bool> = settings.objects.iter().map(Object::is_movable).collect();
+        let watched: Vec<bool> = settings.objects.iter().map(|o| matches!(o.kind, ObjectKind::UBlock { .. })).collect();
+        let names: Vec<String> = settings.objects.iter().map(|o| o.name.clone()).collect();
+        let clearance = ClearanceBook::new(&engine, &parts, &names, &watched, &movable);
+        let n = limbs.working.len();
+        let mut world = Self {
+            engine,
+            parts,
+            robot,
+            limbs,
+            objects,
+            movable,
+            finger_range,
+            contacts: ContactBook::default(),
+            clearance,
+            clearance_every: (settings.clearance_interval_s / settings.physics.step_s).round() as u64,
+            held: Vec::new(),
+            joint_state: (vec![0.0; n], vec![0.0; n]),
+            hand: HandWrench::default(),
+            hasher: XxHash3_64::with_seed(0),
+            step: 0,
+        };
+        world.command_gripper(1.0);
+        world.read_joints();
+        Ok(world)
+    }
+
+    /// Tells the working arm what to do in the next step.
+    pub fn command_arm(&mut self, command: &JointCommand) {
+        self.robot.working.command(&self.limbs.arm, command);
+    }
+
+    /// Tells the other arm what to do in the next step.
+    pub fn command_idle_arm(&mut self, command: &JointCommand) {
+        if let Some(idle) = &mut self.robot.idle {
+            let dofs: Vec<usize> = (0..idle.drives.len()).collect();
+            idle.command(&dofs, command);
+        }
+    }
+
+    /// Makes the gripper seek `opening` (0 closed … 1 open) with its limited force.
+    pub fn command_gripper(&mut self, opening: f64) {
+        if let (Some((closed, open)), Some(&leader)) = (self.finger_range, self.limbs.fingers.first()) {
+            self.robot.working.seek(&mut self.engine, leader, closed + opening.clamp(0.0, 1.0) * (open - closed));
+        }
+    }
+
+    /// What the person's hand does in the next step.
+    pub fn push(&mut self, hand: HandWrench) {
+        self.hand = hand;
+    }
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// When a body's state is no longer finite.
+    pub fn advance(&mut self) -> Result<(), WorldError> {
+        self.robot.working.act(&mut self.engine);
+        if let Some(idle) = &mut self.robot.idle {
+            idle.act(&mut self.engine);
+        }
+        self.apply_hand();
+        self.step += 1;
+        physics::step(&mut self.engine, self.step)?;
+        self.robot.working.settle_efforts(&self.engine);
+        self.read_joints();
+        let time_s = self.time_s();
+        self.contacts.record(&self.engine, &self.parts, &self.movable, time_s);
+        self.update_held();
+        if self.clearance_every > 0 && self.step.is_multiple_of(self.clearance_every) {
+            self.clearance.record(&self.engine, &self.parts, &self.held, time_s);
+        }
+        self.hash_state();
+        Ok(())
+    }
+
+    fn apply_hand(&mut self) {
+        let handle = self.robot.bodies[self.limbs.grasp_body];
+        if self.hand != HandWrench::default()
+            && let Some(body) = self.engine.bodies.get_mut(handle)
+        {
+            body.add_force_at_point(convert::vector(&self.hand.force), convert::vector(&self.hand.point.coords), true);
+            body.add_torque(convert::vector(&self.hand.moment), true);
+        }
+    }
+
+    fn read_joints(&mut self) {
+        let (q, v) = &mut self.joint_state;
+        self.robot.working.read(&self.engine, q, v);
+    }
+
+    /// An object is held while two fingers touch it.
+    fn update_held(&mut self) {
+        self.held.clear();
+        for object in (0..self.movable.len()).filter(|&i| self.movable[i]) {
+            let mut fingers = self.contacts.grips.iter().filter(|(_, o)| *o == object).map(|(body, _)| *body);
+            if let Some(first) = fingers.next()
+                && fingers.any(|other| other != first)
+            {
+                self.held.push(object);
+            }
+        }
+    }
+
+    fn hash_state(&mut self) {
+        for (_, body) in self.engine.bodies.iter().filter(|(_, body)| body.is_dynamic()) {
+            for number in state_of(body) {
+                self.hasher.write_u64(number.to_bits());
+            }
+        }
+    }
+}
+
+/// What can be seen of a world.
+impl World {
+    /// Simulated time (s).
+    pub fn time_s(&self) -> f64 {
+        self.step as f64 * self.engine.integration_parameters.dt
+    }
+
+    /// Number of steps taken.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Number of joints of the working arm.
+    pub fn arm_joints(&self) -> usize {
+        self.limbs.arm.len()
+    }
+
+    /// Number of joints of the other arm.
+    pub fn idle_joints(&self) -> usize {
+        self.limbs.idle.len()
+    }
+
+    /// Joint angles and velocities of the working arm (rad, rad/s).
+    pub fn read_arm(&self, q: &mut [f64], v: &mut [f64]) {
+        for (k, &dof) in self.limbs.arm.iter().enumerate() {
+            q[k] = self.joint_state.0[dof];
+            v[k] = self.joint_state.1[dof];
+        }
+    }
+
+    /// Joint angles and velocities of the other arm (rad, rad/s).
+    pub fn read_idle_arm(&self, q: &mut [f64], v: &mut [f64]) {
+        if let Some(idle) = &self.robot.idle {
+            idle.read(&self.engine, q, v);
+        }
+    }
+
+    /// True efforts of the working arm's drives in the last step (N m).
+    pub fn read_efforts(&self, effort: &mut [f64]) {
+        for (k, &dof) in self.limbs.arm.iter().enumerate() {
+            effort[k] = self.robot.working.drives[dof].effort;
+        }
+    }
+
+    /// Measured opening of the gripper (0 closed … 1 open); 1 without a gripper.
+    pub fn gripper_opening(&self) -> f64 {
+        match (self.finger_range, self.limbs.fingers.first()) {
+            (Some((closed, open)), Some(&leader)) => (self.joint_state.0[leader] - closed) / (open - closed),
+            _ => 1.0,
+        }
+    }
+
+    /// `world_from_tool`.
+    pub fn tool_pose(&self) -> Isometry3<f64> {
+        self.body_pose(self.robot.bodies[self.limbs.tool_body]) * self.limbs.body_from_tool
+    }
+
+    /// Pose and velocity of the place where a person takes hold.
+    pub fn grasp_state(&self) -> GraspState {
+        let handle = self.robot.bodies[self.limbs.grasp_body];
+        let pose = self.body_pose(handle) * self.limbs.body_from_grasp;
+        let (linear_velocity, angular_velocity) = self.engine.bodies.get(handle).map_or((Vector3::zeros(), Vector3::zeros()), |body| {
+            let at = body.velocity_at_point(convert::vector(&pose.translation.vector));
+            (convert::vector_back(at), convert::vector_back(body.angvel()))
+        });
+        GraspState { pose, linear_velocity, angular_velocity }
+    }
+
+    /// `tool_from_grasp`: constant, as both sit on the hand.
+    pub fn tool_from_grasp(&self) -> Isometry3<f64> {
+        self.tool_pose().inverse() * self.grasp_state().pose
+    }
+
+    /// `world_from_object` of the object with this index.
+    pub fn object_pose(&self, object: usize) -> Isometry3<f64> {
+        self.body_pose(self.objects[object])
+    }
+
+    /// Speed of the object with this index (m/s).
+    pub fn object_speed(&self, object: usize) -> f64 {
+        self.engine.bodies.get(self.objects[object]).map_or(0.0, |body| body.linvel().length())
+    }
+
+    /// `world_from_body` of every body of the robot model.
+    pub fn robot_poses(&self, poses: &mut Vec<Isometry3<f64>>) {
+        self.robot.poses(&self.engine, poses);
+    }
+
+    /// Kinetic energy of everything that moves (J).
+    pub fn kinetic_energy_j(&self) -> f64 {
+        self.engine.bodies.iter().filter(|(_, body)| body.is_dynamic()).map(|(_, body)| body.kinetic_energy()).sum()
+    }
+
+    /// All contacts so far.
+    pub fn contacts(&self) -> &[ContactEpisode] {
+        &self.contacts.episodes
+    }
+
+    /// Smallest distances to the watched objects so far.
+    pub fn clearances(&self) -> &[Clearance] {
+        &self.clearance.smallest
+    }
+
+    /// Hash over the bits of every moving body's state at every step so far.
+    pub fn state_hash(&self) -> u64 {
+        self.hasher.finish()
+    }
+
+    /// The engine's own mass matrix of the working arm with its gripper, in the posture of the last step.
+    pub fn mass_matrix(&self) -> Option<DMatrix<f64>> {
+        self.robot.mass_matrix(&self.engine)
+    }
+
+    fn body_pose(&self, handle: RigidBodyHandle) -> Isometry3<f64> {
+        self.engine.bodies.get(handle).map_or_else(Isometry3::identity, |body| convert::pose_back(body.position()))
+    }
+}
+
+/// Pose and velocity of a body as plain numbers.
+fn state_of(body: &RigidBody) -> [f64; 13] {
+    let (p, r, v, w) = (body.translation(), body.rotation(), body.linvel(), body.angvel());
+    [p.x, p.y, p.z, r.x, r.y, r.z, r.w, v.x, v.y, v.z, w.x, w.y, w.z]
+}
+
+/// Positions of the working tree at the start: the arm's posture and an open gripper; and the leading finger's range (closed, open).
+fn starting_positions(model: &RobotModel, limbs: &Limbs, posture: &[f64]) -> Result<(Vec<f64>, Option<(f64, f64)>), WorldError> {
+    if posture.len() != limbs.arm.len() {
+        return Err(WorldError::Robot {
+            robot: model.name.clone(),
+            what: format!("arm of {} joints (its arm has {})", posture.len(), limbs.arm.len()),
+            help: "give one angle per joint".into(),
+        });
+    }
+    let mut positions = vec![0.0; limbs.working.len()];
+    for (&dof, &angle) in limbs.arm.iter().zip(posture) {
+        positions[dof] = angle;
+    }
+    let mut range = None;
+    for &dof in &limbs.fingers {
+        let joint = &model.joints[limbs.working[dof]];
+        if let Some(mimic) = &joint.mimic {
+            let leader = limbs.working.iter().position(|&j| j == mimic.joint).map_or(0.0, |place| positions[place]);
+            positions[dof] = mimic.multiplier * leader + mimic.offset;
+        } else {
+            positions[dof] = joint.upper;
+            range = range.or(Some((joint.lower, joint.upper)));
+        }
+    }
+    Ok((positions, range))
+}

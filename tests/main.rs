@@ -1,0 +1,3 @@
+//! x
+mod physics;
+mod support;

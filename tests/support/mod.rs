@@ -1,0 +1,46 @@
+//! What several tests need.
+
+use cpdmp::robot::{self, RobotModel};
+use cpdmp::world::{Object, ObjectKind, Parameters, PhysicsSettings, Quantity, World, WorldSettings};
+use nalgebra::{Vector2, Vector3};
+
+/// The posture of the left arm in the middle of the pick-and-place scene, tool down (rad).
+pub const LEFT_POSTURE: [f64; 7] = [-0.3823, -1.0479, -0.4848, 1.9297, 0.3409, 0.7699, 1.2964];
+
+/// The project's own Baxter with its gripper.
+pub fn baxter() -> RobotModel {
+    robot::baxter().model
+}
+
+/// A world with `robot` in it, both arms where the scenarios have them, gravity and objects as given.
+pub fn world(robot: &RobotModel, posture: &[f64], objects: &[Object], gravity: [f64; 3], dry_friction_nm: f64) -> World {
+    let physics = PhysicsSettings { gravity_m_per_s2: gravity, ..PhysicsSettings::default() };
+    World::new(&WorldSettings {
+        physics: &physics,
+        robot,
+        tool: "left_gripper_tool",
+        grasp: "left_hand",
+        posture_rad: posture,
+        idle_posture_rad: &[0.6, -0.6, 0.0, 1.6, 0.0, 0.6, 0.0],
+        dry_friction_nm,
+        objects,
+        parameters: &Parameters::default(),
+        clearance_interval_s: 0.0,
+    })
+    .expect("the world is built")
+}
+
+/// An object at `center` in the plane.
+pub fn object(name: &str, center: [f64; 2], kind: ObjectKind) -> Object {
+    Object { name: name.into(), center_m: Vector2::from(center), lateral_offset_m: Quantity::Value(0.0), kind }
+}
+
+/// A table whose top is at -0.18 m, out of reach of the arms, which fall limp when nobody commands them.
+pub fn table(friction: f64) -> Object {
+    object("table", [3.0, 0.0], ObjectKind::Table { size_m: Vector2::new(0.7, 1.3), top_height_m: -0.18, friction })
+}
+
+/// A box of 1 kg and 10 cm on that table.
+pub fn cube(friction: f64) -> Object {
+    object("cube", [3.0, -0.4], ObjectKind::Box { size_m: Vector3::new(0.1, 0.1, 0.1), mass_kg: 1.0, friction })
+}
