@@ -1,3 +1,5 @@
-//! x
+//! One integration binary: the heavy crates are linked once.
+
+mod paper;
 mod physics;
 mod support;

@@ -61,7 +61,7 @@ pub enum CriterionKind {
         /// The object before which the arm must be stiff again.
         ends_before: String,
     },
-    /// When the gripper closes, it is over the object. Value: horizontal distance from grasp centre to object (m).
+    /// When the gripper closes, it is over the place where the object lay at the start. Value: horizontal distance to the grasp centre (m).
     GripperOverObject {
         /// The object's name.
         object: String,

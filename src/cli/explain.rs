@@ -40,7 +40,9 @@ fn table(entries: &[Entry], all: bool) -> String {
     let (exits, faults): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.exit_code.is_some());
     if !exits.is_empty() {
         text += "Exit codes (of several, the worst outcome counts; 128 + n when signal n ended the program)\n";
-        text.extend(exits.iter().map(|entry| format!("{:>4}  {:<18} {}\n", entry.exit_code.unwrap_or_default(), entry.name, entry.meaning)));
+        text.extend(
+            exits.iter().map(|entry| format!("{:>4}  {:<18} {}\n", entry.exit_code.unwrap_or_default(), entry.name, entry.meaning)),
+        );
     }
     if !faults.is_empty() {
         text += if all { "\nFaults of scenario files (all lead to exit code 3)\n" } else { "Fault of a scenario file (exit code 3)\n" };

@@ -5,7 +5,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::judged_run::JudgedRun;
 use crate::recording;
-use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file};
+use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file, write_file};
 use crate::scenario::Scenario;
 use crate::simulation::{DemonstrationSource, RunOutcome};
 
@@ -30,7 +30,9 @@ fn recordings(left: &RunOutcome, scenario: &Scenario, folder: &Path) -> Vec<Stri
     if plan.demonstrations {
         failures.extend(left.dataset.write(&folder.join("demonstrations")).err().map(|error| error.to_string()));
     }
-    failures.extend(left.skill.write(&folder.join("skill.json")).err().map(|error| error.to_string()));
+    let skill = left.skill.to_json().map_err(|error| error.to_string());
+    let written = skill.and_then(|text| write_file(&folder.join("skill.json"), &text).map_err(|error| error.to_string()));
+    failures.extend(written.err());
     if plan.steps {
         failures.extend(recording::write_step_log(&folder.join("steps.parquet"), left).err().map(|error| error.to_string()));
     }

@@ -1,6 +1,7 @@
 //! Where a run is: a bar on a terminal, lines in a log.
 
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -11,11 +12,12 @@ use crate::simulation::Progress;
 pub(super) struct Shown<'a> {
     terminal: &'a Terminal,
     bar: Mutex<Option<ProgressBar>>,
+    started: Instant,
 }
 
 impl<'a> Shown<'a> {
     pub fn new(terminal: &'a Terminal) -> Self {
-        Self { terminal, bar: Mutex::new(None) }
+        Self { terminal, bar: Mutex::new(None), started: Instant::now() }
     }
 
     fn current(&self) -> Option<ProgressBar> {
@@ -55,6 +57,10 @@ impl Progress for Shown<'_> {
             Some(bar) => bar.suspend(|| self.terminal.note(&format!("{text}\n"))),
             None => self.terminal.note(&format!("{text}\n")),
         }
+    }
+
+    fn elapsed_s(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
     }
 }
 

@@ -21,7 +21,9 @@ pub(super) fn run(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Ou
     let folders: Vec<PathBuf> = ready.iter().map(|one| folder(global.out.as_deref(), ready.len(), &one.scenario.experiment)).collect();
     if let Some(index) = (1..folders.len()).find(|&index| folders[..index].contains(&folders[index])) {
         let (path, folder) = (ready[index].path.display(), folders[index].display());
-        terminal.error(&format!("error: {path} would write to {folder}, as another of these scenarios does: give it a name or seed of its own\n"));
+        terminal.error(&format!(
+            "error: {path} would write to {folder}, as another of these scenarios does: give it a name or seed of its own\n"
+        ));
         return Outcome::Usage;
     }
     let outcomes = ready.iter().zip(&folders).map(|(one, folder)| run_one(one, folder, global, terminal));
@@ -52,7 +54,10 @@ fn run_one(ready: &Ready, target: &Path, global: &Global, terminal: &Terminal) -
     let mut run = judged_run(&ready.scenario, &progress);
     if !run.wants_folder() {
         drop(progress);
-        terminal.error(&format!("error: {}\n", run.report.error.as_deref().unwrap_or_default()));
+        match terminal.format {
+            Format::Human => terminal.error(&format!("error: {}\n", run.report.error.as_deref().unwrap_or_default())),
+            Format::Json => terminal.result(&(run.report.to_json_line() + "\n")),
+        }
         return run.report.outcome;
     }
     let written = files::write(&mut run, &ready.scenario, &folder, started).and_then(|()| folder.finish());

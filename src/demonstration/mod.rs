@@ -11,6 +11,7 @@ mod read;
 mod resample;
 pub mod synthetic;
 mod trajectory;
+mod trajectory_faults;
 mod write;
 
 pub use dataset::{Dataset, Demonstration, Parameters};

@@ -31,8 +31,9 @@ impl GripperProfile {
         };
         let openings = (0..POINTS).map(|i| opening(i as f64 / (POINTS - 1) as f64)).collect();
         let left_out = demonstrations.len() - used.len();
-        let warning = (left_out > 0)
-            .then(|| format!("{left_out} demonstrations move the gripper another number of times than {count} and are left out of its profile"));
+        let warning = (left_out > 0).then(|| {
+            format!("{left_out} demonstrations move the gripper another number of times than {count} and are left out of its profile")
+        });
         (Self { openings }, warning)
     }
 

@@ -31,19 +31,18 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
     dataset.check()?;
     let prepared = prepare(dataset, settings)?;
     let mut warnings = warnings::about_data(dataset, &prepared);
-    let (motion, force) =
-        rayon::join(|| motion_fit(dataset, &prepared, settings, seed), || force_fit(dataset, &prepared, settings, seed));
+    let (motion, force) = rayon::join(|| motion_fit(dataset, &prepared, settings, seed), || force_fit(dataset, &prepared, settings, seed));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
     let motion = motion_model(dataset, &prepared, settings, shaping)?;
     let (force, force_fit) = force.map_or((None, None), |(model, fit)| (Some(model), Some(fit)));
-    let orientation = orientation_profile(&prepared, settings)?;
+    let orientation = orientation_profile(&prepared, settings);
     let gripper = gripper_profile(&prepared, &mut warnings);
     let fits = [("motion", &motion_fit), ("force", &force_fit)];
     let histories = fits.iter().filter_map(|(name, fit)| Some(((*name).to_owned(), fit.as_ref()?.history.clone()))).collect();
     let provenance = vec![
         ("demonstrations".to_owned(), dataset.demonstrations.len().to_string()),
-        ("seed".to_owned(), seed.to_string()),
         ("program".to_owned(), format!("cpdmp {}", env!("CARGO_PKG_VERSION"))),
+        ("seed".to_owned(), seed.to_string()),
     ];
     let skill = Skill { motion, force, compliance, orientation, gripper, provenance, histories };
     skill.check()?;
@@ -121,13 +120,15 @@ fn motion_model(
     })
 }
 
-fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Result<Option<OrientationProfile>, LearningError> {
-    let sample = |p| -> Option<OrientationSample> {
-        let p: &Prepared = p;
-        Some(OrientationSample { fractions: &p.fractions, orientations: p.trajectory.orientations()?, theta: &p.theta_m })
-    };
-    let Some(samples) = prepared.iter().map(sample).collect::<Option<Vec<_>>>() else { return Ok(None) };
-    OrientationProfile::fit(&samples, settings.orientation_basis, settings.motion.ridge).map(Some)
+fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Option<OrientationProfile> {
+    let (nothing, blind) = (DVector::zeros(0), settings.shaping == ShapingKind::Lwr);
+    let samples = prepared.iter().map(|p| {
+        let theta = if blind { &nothing } else { &p.theta_m };
+        Some(OrientationSample { fractions: &p.fractions, orientations: p.trajectory.orientations()?, theta })
+    });
+    let samples = samples.collect::<Option<Vec<_>>>()?;
+    let profile = OrientationProfile::fit(&samples, settings.orientation_basis, settings.motion.ridge);
+    Some(if blind { profile.blind_to(prepared[0].theta_m.len()) } else { profile })
 }
 
 fn gripper_profile(prepared: &[Prepared], warnings: &mut Vec<String>) -> Option<GripperProfile> {

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::LearningError;
+use super::parameters::mean_and_deviations;
 use crate::math::solve_weighted;
 
 /// `y(theta) = weights theta + mean`.
@@ -20,15 +21,13 @@ impl LinearMap {
     /// # Errors
     /// When the numbers of values and parameter vectors disagree or there are none.
     pub fn fit(thetas: &[DVector<f64>], values: &[DVector<f64>]) -> Result<Self, LearningError> {
-        let (Some(theta), Some(value)) = (thetas.first(), values.first()) else {
+        if thetas.is_empty() {
             return Err(LearningError::Data("no demonstration".to_owned()));
-        };
-        let (k, p, d) = (thetas.len(), theta.len(), value.len());
-        let mean_theta = thetas.iter().sum::<DVector<f64>>() / k as f64;
+        }
+        let (mean_theta, regressors) = mean_and_deviations(&thetas.iter().collect::<Vec<_>>());
         let mean_value = values.iter().sum::<DVector<f64>>() / values.len() as f64;
-        let regressors = DMatrix::from_fn(k, p, |i, j| thetas[i][j] - mean_theta[j]);
-        let targets = DMatrix::from_fn(values.len(), d, |i, j| values[i][j] - mean_value[j]);
-        let weights = solve_weighted(&regressors, &targets, &DVector::from_element(k, 1.0))?.solution.transpose();
+        let targets = DMatrix::from_fn(values.len(), mean_value.len(), |i, j| values[i][j] - mean_value[j]);
+        let weights = solve_weighted(&regressors, &targets, &DVector::from_element(thetas.len(), 1.0))?.solution.transpose();
         Ok(Self { mean: mean_value - &weights * mean_theta, weights })
     }
 

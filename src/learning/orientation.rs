@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
-use super::LearningError;
+use super::parameters::mean_and_deviations;
 use crate::math::{exp_map, log_map, mean_quaternion, same_hemisphere, solve_normal_equations};
 
 /// Rotation vectors about a mean orientation, smooth in the time fraction `u` and linear in the parameters:
@@ -26,21 +26,20 @@ pub(super) struct OrientationSample<'a> {
 
 impl OrientationProfile {
     /// Least squares over all samples with `basis` functions; `ridge` (demonstrations) holds the parameters' effect back.
-    pub(super) fn fit(demonstrations: &[OrientationSample], basis: usize, ridge: f64) -> Result<Self, LearningError> {
+    pub(super) fn fit(demonstrations: &[OrientationSample], basis: usize, ridge: f64) -> Self {
         let reference = mean_quaternion(demonstrations.iter().flat_map(|d| &d.orientations));
-        let p = demonstrations.first().map_or(0, |d| d.theta.len());
         let k = demonstrations.len() as f64;
-        let mean_theta: DVector<f64> = demonstrations.iter().map(|d| d.theta / k).sum();
-        let spread = DVector::from_fn(p, |j, _| {
-            let variance = demonstrations.iter().map(|d| (d.theta[j] - mean_theta[j]).powi(2)).sum::<f64>() / k;
-            if variance > 0.0 { variance.sqrt() } else { 1.0 }
+        let (mean_theta, deviations) = mean_and_deviations(&demonstrations.iter().map(|d| d.theta).collect::<Vec<_>>());
+        let p = mean_theta.len();
+        let spread = DVector::from_fn(p, |j, _| match deviations.column(j).norm() / k.sqrt() {
+            0.0 => 1.0,
+            spread => spread,
         });
         let unknowns = basis * (1 + p);
         let (mut normal, mut moments) = (DMatrix::zeros(unknowns, unknowns), DMatrix::zeros(unknowns, 3));
         let mut psi = vec![0.0; basis];
-        for d in demonstrations {
-            let factors: Vec<f64> =
-                std::iter::once(1.0).chain((0..p).map(|j| (d.theta[j] - mean_theta[j]) / spread[j])).collect();
+        for (d, deviation) in demonstrations.iter().zip(deviations.row_iter()) {
+            let factors: Vec<f64> = std::iter::once(1.0).chain((0..p).map(|j| deviation[j] / spread[j])).collect();
             for (u, r) in d.fractions.iter().zip(rotation_vectors(&reference, &d.orientations)) {
                 activations(*u, &mut psi);
                 let row = DVector::from_fn(unknowns, |i, _| factors[i / basis] * psi[i % basis]);
@@ -59,7 +58,12 @@ impl OrientationProfile {
             mean -= &w * mean_theta[j];
             weights.push(w);
         }
-        Ok(Self { reference, mean, weights })
+        Self { reference, mean, weights }
+    }
+
+    /// The same profile for all values of so many parameters; this one has none.
+    pub(super) fn blind_to(self, parameters: usize) -> Self {
+        Self { weights: vec![DMatrix::zeros(self.mean.nrows(), 3); parameters], ..self }
     }
 
     /// The profile at `theta` (p), as one with no parameters left.

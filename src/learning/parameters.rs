@@ -1,6 +1,6 @@
 //! Task parameters by name, and how far a query lies outside what was demonstrated.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::LearningError;
 
@@ -57,4 +57,20 @@ impl ParameterSpace {
         });
         outside.fold(0.0, f64::max)
     }
+}
+
+/// Spread of a parameter relative to its magnitude below which it counts as constant (-): rounding is not variation.
+const CONSTANT: f64 = 1e-9;
+
+/// The mean of the parameters (p) and every demonstration's deviation from it (K x p), exactly zero for parameters that are constant.
+pub(super) fn mean_and_deviations(thetas: &[&DVector<f64>]) -> (DVector<f64>, DMatrix<f64>) {
+    let p = thetas.first().map_or(0, |theta| theta.len());
+    let mean = thetas.iter().map(|theta| *theta / thetas.len() as f64).fold(DVector::zeros(p), |sum, part| sum + part);
+    let mut deviations = DMatrix::from_fn(thetas.len(), p, |k, j| thetas[k][j] - mean[j]);
+    for (j, mut column) in deviations.column_iter_mut().enumerate() {
+        if column.amax() <= CONSTANT * mean[j].abs() {
+            column.fill(0.0);
+        }
+    }
+    (mean, deviations)
 }

@@ -74,17 +74,19 @@ impl LearningReport {
         let segments = segments(&mut shaping);
         let duration = skill.motion.duration_s;
         let states = match &skill.motion.shaping {
-            Shaping::Phmm(phmm) => (0..phmm.states()).map(|i| {
-                let mut active = segments.iter().filter(|s| s.state == i).peekable();
-                let start = active.peek().map(|s| s.start);
-                StateReport {
-                    index: i,
-                    active: start.zip(active.last()).map(|(start, last)| [start, last.end]),
-                    mean: phmm.mean_at(i, theta).iter().copied().collect(),
-                    value_m2: skill.compliance.values_m2[i],
-                    beta: skill.compliance.beta[i],
-                }
-            }).collect(),
+            Shaping::Phmm(phmm) => (0..phmm.states())
+                .map(|i| {
+                    let mut active = segments.iter().filter(|s| s.state == i).peekable();
+                    let start = active.peek().map(|s| s.start);
+                    StateReport {
+                        index: i,
+                        active: start.zip(active.last()).map(|(start, last)| [start, last.end]),
+                        mean: phmm.mean_at(i, theta).iter().copied().collect(),
+                        value_m2: skill.compliance.values_m2[i],
+                        beta: skill.compliance.beta[i],
+                    }
+                })
+                .collect(),
             Shaping::Lwr(_) => Vec::new(),
         };
         let windows = compliance_windows(&segments, &skill.compliance.beta);

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::cpdmp::Compliance;
+use super::parameters::mean_and_deviations;
 use super::phmm::{Fit, FitStatus};
 use super::prepare::Prepared;
 use crate::demonstration::Dataset;
@@ -19,6 +20,12 @@ pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared]) -> Vec<String
     let thetas = |of: fn(&Prepared) -> &DVector<f64>| prepared.iter().map(of).collect::<Vec<_>>();
     warnings.extend(about_parameters("theta_m", &dataset.parameters_m(), &thetas(|p| &p.theta_m)));
     warnings.extend(about_parameters("theta_f", &dataset.parameters_f(), &thetas(|p| &p.theta_f)));
+    for (what, has) in [("an orientation", orientation as fn(&Prepared) -> bool), ("a gripper", gripper)] {
+        let with = prepared.iter().filter(|p| has(p)).count();
+        if with != 0 && with != prepared.len() {
+            warnings.push(format!("only {with} of {} demonstrations have {what}: the skill has none", prepared.len()));
+        }
+    }
     for (demonstration, p) in dataset.demonstrations.iter().zip(prepared) {
         if p.largest_gap_s > LONG_GAP_S {
             warnings.push(format!("{}: {:.2} s without a sample are bridged by a straight line", demonstration.name, p.largest_gap_s));
@@ -27,25 +34,29 @@ pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared]) -> Vec<String
     warnings
 }
 
+fn orientation(p: &Prepared) -> bool {
+    p.trajectory.orientations().is_some()
+}
+
+fn gripper(p: &Prepared) -> bool {
+    p.trajectory.gripper().is_some()
+}
+
 /// Rank and condition of the parameters over the demonstrations.
 fn about_parameters(kind: &str, names: &[String], thetas: &[&DVector<f64>]) -> Option<String> {
-    let (k, p) = (thetas.len() as f64, names.len());
+    let p = names.len();
     if p == 0 {
         return None;
     }
-    let mean: DVector<f64> = thetas.iter().map(|theta| *theta / k).sum();
-    let mut scatter = DMatrix::zeros(p, p);
-    for theta in thetas {
-        // A parameter that varies by rounding only does not vary.
-        let off = DVector::from_fn(p, |j, _| if (theta[j] - mean[j]).abs() > 1e-9 * mean[j].abs() { theta[j] - mean[j] } else { 0.0 });
-        scatter.ger(1.0, &off, &off, 1.0);
-    }
+    let (_, deviations) = mean_and_deviations(thetas);
+    let scatter = deviations.tr_mul(&deviations);
     let LeastSquares { rank, condition, .. } = solve_normal_equations(&scatter, &DMatrix::zeros(p, 0));
     let listed = names.join(", ");
     if rank < p {
         return Some(format!("{kind} [{listed}]: the demonstrations vary {rank} of {p} parameters; the others have no effect"));
     }
-    (condition > LARGE_CONDITION).then(|| format!("{kind} [{listed}]: nearly collinear over the demonstrations (condition {condition:.1e})"))
+    (condition > LARGE_CONDITION)
+        .then(|| format!("{kind} [{listed}]: nearly collinear over the demonstrations (condition {condition:.1e})"))
 }
 
 /// Fits that did not settle, and compliance that decides nothing.
@@ -68,7 +79,8 @@ pub(super) fn about_models(fits: &[(&str, Option<&Fit>)], compliance: &Complianc
         warnings.push(format!("{who} complies: values from {least:.1e} to {most:.1e} m^2, threshold {sigma:.1e} m^2"));
     }
     if states > 0 && sigma < noise_m2 {
-        warnings.push(format!("the compliance threshold {sigma:.1e} m^2 lies below the sensor noise in the forcing term, {noise_m2:.1e} m^2"));
+        warnings
+            .push(format!("the compliance threshold {sigma:.1e} m^2 lies below the sensor noise in the forcing term, {noise_m2:.1e} m^2"));
     }
     warnings
 }

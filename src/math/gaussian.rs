@@ -107,8 +107,8 @@ mod tests {
         let g = example();
         let x = DVector::from_vec(vec![0.3, -0.2, 1.1]);
         let given = x.select_rows(&[2]);
-        let product = g.marginal(&[2]).unwrap().log_density(&given)
-            + g.conditional(&[2], &given).unwrap().log_density(&x.select_rows(&[0, 1]));
+        let product =
+            g.marginal(&[2]).unwrap().log_density(&given) + g.conditional(&[2], &given).unwrap().log_density(&x.select_rows(&[0, 1]));
         assert!((g.log_density(&x) - product).abs() < 1e-13);
     }
 

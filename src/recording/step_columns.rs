@@ -34,7 +34,9 @@ pub fn step_columns(joints: usize, objects: &[&str]) -> Vec<StepColumn> {
     table.joints(joints, "effort", "_nm", "torque", |r| &r.joint_torque);
     table.pose("tool", "tool frame (grasp centre)", |r| Some(r.tool));
     table.pose("reference", "pose that the controller wants the tool to have", |r| Some(r.reference));
-    table.vector("force", "_n", "force of the environment on the tool, as the controller estimates it", |r| r.wrench.fixed_rows::<3>(0).into());
+    table.vector("force", "_n", "force of the environment on the tool, as the controller estimates it", |r| {
+        r.wrench.fixed_rows::<3>(0).into()
+    });
     table.vector("torque", "_nm", "torque of the environment about the tool, as the controller estimates it", |r| {
         r.wrench.fixed_rows::<3>(3).into()
     });

@@ -12,8 +12,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
-use super::step_columns::{StepColumn, StepValue, step_columns};
 use super::RecordingError;
+use super::step_columns::{StepColumn, StepValue, step_columns};
 use crate::simulation::{RunOutcome, StepRecord};
 
 /// Version of the step log's columns, under the key `cpdmp.version` of the file.

@@ -1,7 +1,7 @@
 //! Text out: what a run is told to people and to other programs.
 //!
-//! [`RunReport`] is the only source: `report.json` is its serialised form, the table on the terminal is drawn from it, and later formats read
-//! nothing else. [`RunFolder`] is where a run leaves its files: written beside, then renamed, so that there is never half of one.
+//! [`RunReport`] is the only source: `report.json` is its serialised form, and the table on the terminal is drawn from it. [`RunFolder`] is
+//! where a run leaves its files: written beside, then renamed, so that there is never half of one.
 
 mod lock;
 mod manifest;

@@ -78,8 +78,12 @@ impl Outcome {
     pub fn describe(self) -> &'static str {
         match self {
             Self::Passed => "every required criterion is as the scenario expects",
-            Self::CriteriaNotMet => "a required criterion is not as the scenario expects: the table and report.json say which, by how much and when",
-            Self::Diverged => "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help",
+            Self::CriteriaNotMet => {
+                "a required criterion is not as the scenario expects: the table and report.json say which, by how much and when"
+            }
+            Self::Diverged => {
+                "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help"
+            }
             Self::LearningFailed => "no skill could be learned from the demonstrations",
             Self::NothingSelected => "the arguments name no scenario: check the folder or pattern",
             Self::OutputBusy => "another run is writing to the same folder: wait, or choose another --out",

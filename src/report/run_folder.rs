@@ -12,7 +12,7 @@ use super::manifest::FORMAT;
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// The place is taken by something that is not ours.
-    #[error("{} is there already and is not the folder of a run (it has no manifest.json of cpdmp): choose another --out, or move it away", .0.display())]
+    #[error("{} is not the folder of a run and is not overwritten: choose another --out, or move it away", .0.display())]
     NotARun(PathBuf),
     /// Another run writes there.
     #[error("{} is in use by {holder}: wait for it, or choose another --out", path.display())]
@@ -47,7 +47,7 @@ impl OutputError {
     }
 }
 
-/// The folder of a run that is being written. Nothing is seen at its final place until [`RunFolder::finish`]; an older run stays until then.
+/// The folder of a run that is being written. Nothing is seen at its final place until [`RunFolder::finish`]; an older run stays till then.
 #[derive(Debug)]
 pub struct RunFolder {
     target: PathBuf,

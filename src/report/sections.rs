@@ -67,7 +67,8 @@ pub(super) fn compliance(outcome: &RunOutcome) -> ComplianceReport {
         Statistic::Conditional => "conditional",
         Statistic::BetweenDemonstration => "between_demonstration",
     };
-    let states = learned.states.iter().map(|state| ComplianceState { index: state.index, value_m2: finite(state.value_m2), beta: state.beta });
+    let states =
+        learned.states.iter().map(|state| ComplianceState { index: state.index, value_m2: finite(state.value_m2), beta: state.beta });
     let windows = compliance_windows(&outcome.steps).into_iter().map(|window| Window { start_s: window.start_s, end_s: window.end_s });
     ComplianceReport { statistic, threshold_m2: finite(learned.threshold_m2), states: states.collect(), windows: windows.collect() }
 }

@@ -52,7 +52,8 @@ fn criteria(criteria: &[CriterionReport]) -> Vec<String> {
 fn row(criterion: &CriterionReport) -> [String; 6] {
     let unit = if criterion.unit == "1" { String::new() } else { format!(" {}", criterion.unit) };
     let with_unit = |number: Option<f64>| number.map_or("-".to_owned(), |number| format!("{}{unit}", figure(number)));
-    let margin = criterion.margin.map_or("-".to_owned(), |number| format!("{}{}{unit}", if number < 0.0 { "" } else { "+" }, figure(number)));
+    let margin =
+        criterion.margin.map_or("-".to_owned(), |number| format!("{}{}{unit}", if number < 0.0 { "" } else { "+" }, figure(number)));
     let failed_at = criterion.first_failed_time_s.map_or(String::new(), |time| format!(" at {time:.2} s"));
     let verdict = match (criterion.as_expected, criterion.required, criterion.passed) {
         (true, true, true) => "ok".to_owned(),
@@ -74,23 +75,24 @@ fn verdict_colour(criterion: &CriterionReport) -> &'static str {
     }
 }
 
-/// Four significant figures, without an exponent where none is needed.
+/// Three significant figures, without an exponent where none is needed.
 fn figure(number: f64) -> String {
     let magnitude = number.abs();
     if number == 0.0 {
         "0".to_owned()
     } else if (1e-4..1e6).contains(&magnitude) {
-        let decimals = (3 - magnitude.log10().floor() as i32).clamp(0, 7) as usize;
+        let decimals = (2 - magnitude.log10().floor() as i32).clamp(0, 6) as usize;
         let fixed = format!("{number:.decimals$}");
         if fixed.contains('.') { fixed.trim_end_matches('0').trim_end_matches('.').to_owned() } else { fixed }
     } else {
-        format!("{number:.3e}")
+        format!("{number:.2e}")
     }
 }
 
 fn contacts(report: &RunReport) -> Vec<String> {
     let refused: Vec<_> = report.collisions.iter().filter(|contact| !contact.allowed).collect();
-    let mut lines = vec![format!("  contacts not allowed  {}", if refused.is_empty() { "none".to_owned() } else { refused.len().to_string() })];
+    let mut lines =
+        vec![format!("  contacts not allowed  {}", if refused.is_empty() { "none".to_owned() } else { refused.len().to_string() })];
     lines.extend(refused.iter().map(|contact| {
         format!(
             "    {RED}{} - {}{PLAIN}  {:.3} … {:.3} s, {:.2} mm deep, {:.1} N",
@@ -133,8 +135,13 @@ fn compliance(report: &RunReport) -> Option<String> {
 
 fn learning(report: &RunReport) -> Vec<String> {
     let Some(learning) = &report.learning else { return Vec::new() };
-    let last = learning.log_likelihood.last().copied().flatten().map_or(String::new(), |value| format!(", log-likelihood {}", figure(value)));
-    let mut lines = vec![format!("  learning              {}, {} states, best of {} starts{last}", learning.status, learning.states, learning.starts)];
+    let likelihood = learning.log_likelihood.last().copied().flatten();
+    let models = match (learning.starts, likelihood) {
+        (0, _) => String::new(),
+        (starts, None) => format!(", {} states, best of {starts} starts", learning.states),
+        (starts, Some(value)) => format!(", {} states, best of {starts} starts, log-likelihood {}", learning.states, figure(value)),
+    };
+    let mut lines = vec![format!("  learning              {}{models}", learning.status.replace('_', " "))];
     lines.extend(learning.warnings.iter().map(|warning| format!("    warning: {warning}")));
     lines
 }
@@ -152,8 +159,10 @@ mod tests {
     use super::figure;
 
     #[test]
-    fn figures_are_short_and_keep_four_digits() {
-        for (number, shown) in [(0.0, "0"), (0.012, "0.012"), (0.0123456, "0.01235"), (-14.2, "-14.2"), (1e-7, "1.000e-7"), (298000.0, "298000")] {
+    fn figures_are_short_and_keep_three_digits() {
+        for (number, shown) in
+            [(0.0, "0"), (0.012, "0.012"), (0.0123456, "0.0123"), (-14.2, "-14.2"), (1e-7, "1.00e-7"), (298000.0, "298000")]
+        {
             assert_eq!(figure(number), shown);
         }
     }

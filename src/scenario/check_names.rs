@@ -1,7 +1,10 @@
 //! Names that refer to something: objects, parameters, and the values that parameters hand on.
 
+use std::collections::BTreeSet;
+
+use super::check_taught::MAX_DEMONSTRATIONS;
 use super::checks::list;
-use super::fault::{Code, Fault};
+use super::fault::{Code, ENOUGH, Fault};
 use super::key::{Kind, To};
 use super::measure::{Measure, plain};
 use super::schema::SCENARIO;
@@ -12,9 +15,11 @@ use super::walk::walk;
 
 /// No two items of a list may bear one name.
 pub(super) fn unique_names(scenario: &Node, key: &str, faults: &mut Vec<Fault>) {
-    let named: Vec<(&str, &Node)> = list(scenario, key).iter().filter_map(|item| Some((item.name()?, item.get("name")?))).collect();
-    for (index, (name, node)) in named.iter().enumerate() {
-        if named[..index].iter().any(|(earlier, _)| earlier == name) {
+    let mut seen = BTreeSet::new();
+    for item in list(scenario, key) {
+        if let (Some(name), Some(node)) = (item.name(), item.get("name"))
+            && !seen.insert(name)
+        {
             let fault = Fault::at(Code::DuplicateName, node.origin, format!("a second {key} has the name `{name}`"));
             faults.push(fault.expected(format!("a name of its own for each {key}")));
         }
@@ -24,8 +29,9 @@ pub(super) fn unique_names(scenario: &Node, key: &str, faults: &mut Vec<Fault>) 
 /// Names of objects and parameters, wherever the table of keys says that one is meant.
 pub(super) fn references(scenario: &Node, faults: &mut Vec<Fault>) {
     walk(scenario, &SCENARIO, &mut |key, node| match &key.kind {
+        _ if faults.len() > ENOUGH => {}
         Kind::Reference(to) => faults.extend(reference(scenario, *to, node)),
-        Kind::References(to) => faults.extend(node.items().iter().filter_map(|item| reference(scenario, *to, item))),
+        Kind::References(to) => faults.extend(node.items().iter().filter_map(|item| reference(scenario, *to, item)).take(ENOUGH)),
         Kind::Quantity(measure) if node.as_text().is_some() => {
             faults.extend(reference(scenario, To::Parameter, node));
             quantity_in_range(scenario, key.name, measure, node, faults);
@@ -47,7 +53,11 @@ fn reference(scenario: &Node, to: To, node: &Node) -> Option<Fault> {
 
 /// The fault of a name that nothing bears.
 pub(super) fn unknown_name(name: &str, origin: Origin, to: To, known: Vec<&str>) -> Fault {
-    let expected = if known.is_empty() { format!("the scenario to have {}", to.describe()) } else { format!("one of {}", name_list(known.iter().copied())) };
+    let expected = if known.is_empty() {
+        format!("the scenario to have {}", to.describe())
+    } else {
+        format!("one of {}", name_list(known.iter().copied()))
+    };
     let fault = Fault::at(Code::UnknownName, origin, format!("`{name}` is not the name of {}", to.describe()));
     fault.expected(expected).maybe_help(did_you_mean(name, known))
 }
@@ -69,14 +79,13 @@ pub(super) fn known_names(scenario: &Node, to: To) -> Vec<&str> {
 fn quantity_in_range(scenario: &Node, key: &str, measure: &Measure, node: &Node, faults: &mut Vec<Fault>) {
     let Some(name) = node.as_text() else { return };
     let executed = scenario.get("parameters").and_then(|parameters| parameters.get(name));
-    let taught = scenario.get("teaching").and_then(|teaching| teaching.get("grid")).and_then(|grid| grid.get(name)).map_or(&[][..], Node::items);
-    for value in executed.into_iter().chain(taught) {
+    let taught =
+        scenario.get("teaching").and_then(|teaching| teaching.get("grid")).and_then(|grid| grid.get(name)).map_or(&[][..], Node::items);
+    for value in executed.into_iter().chain(taught.iter().take(MAX_DEMONSTRATIONS)) {
         if let Some(number) = value.as_number().filter(|number| !measure.accepts(*number)) {
             let message = format!("`{name}` is {}, but it stands for `{key}`", plain(number));
             let fault = Fault::at(Code::OutOfRange, value.origin, message).expected(measure.describe());
-            if !faults.contains(&fault) {
-                faults.push(fault);
-            }
+            faults.push(fault);
         }
     }
 }

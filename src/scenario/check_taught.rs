@@ -7,7 +7,7 @@ use super::measure::plain;
 use super::tree::Node;
 
 /// Most demonstrations that one scenario may teach.
-const MAX_DEMONSTRATIONS: usize = 1000;
+pub(super) const MAX_DEMONSTRATIONS: usize = 1000;
 
 /// What the grid of the lessons varies.
 pub(super) fn grid(scenario: &Node, teaching: &Node, faults: &mut Vec<Fault>) {

@@ -11,7 +11,8 @@ pub(super) fn waypoints(teaching: &Node, faults: &mut Vec<Fault>) {
     if let (true, Some(node)) = (items.len() < 2, teaching.get("waypoint")) {
         faults.push(Fault::at(Code::WrongLength, node.origin, format!("{} way-points are no way", items.len())).expected("at least two"));
     }
-    let times: Vec<(f64, &Node)> = items.iter().filter_map(|item| item.get("time_s")).filter_map(|node| Some((node.as_number()?, node))).collect();
+    let times: Vec<(f64, &Node)> =
+        items.iter().filter_map(|item| item.get("time_s")).filter_map(|node| Some((node.as_number()?, node))).collect();
     if let Some((time, node)) = times.first().filter(|(time, _)| *time != 0.0) {
         let fault = Fault::at(Code::Order, node.origin, format!("the first way-point is at {} s", plain(*time)));
         faults.push(fault.expected("0 s: it is where the demonstration begins"));
@@ -29,7 +30,8 @@ pub(super) fn waypoints(teaching: &Node, faults: &mut Vec<Fault>) {
 
 /// Pushes follow each other.
 pub(super) fn pushes(scenario: &Node, faults: &mut Vec<Fault>) {
-    let windows = scenario.get("human").and_then(|human| human.get("help")).and_then(|help| help.get("windows_s")).map_or(&[][..], Node::items);
+    let windows =
+        scenario.get("human").and_then(|human| human.get("help")).and_then(|help| help.get("windows_s")).map_or(&[][..], Node::items);
     let mut end_before = f64::NEG_INFINITY;
     for window in windows {
         let [start, end] = window.as_numbers()[..] else { continue };

@@ -20,6 +20,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
         waypoints(teaching, &mut faults);
     }
     joints(scenario, &mut faults);
+    axes(scenario, &mut faults);
     rates(scenario, &mut faults);
     pushes(scenario, &mut faults);
     faults
@@ -69,11 +70,23 @@ fn joints(scenario: &Node, faults: &mut Vec<Fault>) {
     }
 }
 
+/// Taught motions have three columns: x, y and z.
+fn axes(scenario: &Node, faults: &mut Vec<Fault>) {
+    let compliance = scenario.get("coupling").and_then(|coupling| coupling.get("compliance_m_per_n"));
+    if let (Some(_), Some(node)) = (scenario.get("teaching"), compliance)
+        && ![1, 3].contains(&node.items().len())
+    {
+        let fault = Fault::at(Code::WrongLength, node.origin, format!("`compliance_m_per_n` has {} entries", node.items().len()));
+        faults.push(fault.expected("one number for all axes, or one each for x, y and z"));
+    }
+}
+
 /// Nothing can be sampled faster than it is simulated.
 fn rates(scenario: &Node, faults: &mut Vec<Fault>) {
     let simulation = scenario.get("simulation");
     let Some(step) = simulation.and_then(|table| table.get("step_s")).and_then(Node::as_number) else { return };
-    let sampled = [simulation.and_then(|table| table.get("log_rate_hz")), scenario.get("teaching").and_then(|table| table.get("record_rate_hz"))];
+    let sampled =
+        [simulation.and_then(|table| table.get("log_rate_hz")), scenario.get("teaching").and_then(|table| table.get("record_rate_hz"))];
     for node in sampled.into_iter().flatten() {
         if let Some(rate) = node.as_number().filter(|rate| rate * step > 1.0 + 1e-9) {
             let message = format!("{} samples per second are more than the engine's steps of {} s give", plain(rate), plain(step));

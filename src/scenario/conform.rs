@@ -1,12 +1,15 @@
 //! A typed tree against the table of keys: every type and range checked, every default filled in, every unknown key named.
 
-use super::fault::{Code, Fault};
+use super::fault::{Code, ENOUGH, Fault};
 use super::key::{Key, Kind, Preset, Shape};
 use super::roots::Roots;
 use super::schema::SCENARIO;
 use super::source::{Origin, Sources};
 use super::suggest::{did_you_mean, name_list};
 use super::tree::{Entry, Node, Value};
+
+/// Most tables in one list.
+const MAX_ITEMS: usize = 1000;
 
 /// Compares trees with shapes and collects what does not fit.
 pub(super) struct Conform<'a> {
@@ -81,7 +84,12 @@ impl Conform<'_> {
         Node::new(value, origin)
     }
 
-    fn items(&mut self, shape: &Shape, items: Vec<Node>, path: &str) -> Vec<Node> {
+    fn items(&mut self, shape: &Shape, mut items: Vec<Node>, path: &str) -> Vec<Node> {
+        if let Some(first_too_many) = items.get(MAX_ITEMS) {
+            let fault = Fault::at(Code::WrongLength, first_too_many.origin, format!("`{path}` has {} items", items.len()));
+            self.faults.push(fault.expected(format!("at most {MAX_ITEMS}")));
+            items.truncate(MAX_ITEMS);
+        }
         let path_of = |(index, item): (usize, &Node)| match item.name() {
             Some(name) => format!("{path}.{name}"),
             None => format!("{path}.{index}"),
@@ -112,6 +120,9 @@ impl Conform<'_> {
             return self.faults.push(fault.help(format!("it belongs to kind `{}`", owner.kind)));
         }
         let fault = Fault::at(Code::UnknownKey, entry.origin, format!("unknown key `{}`", join(path, &entry.key)));
+        if self.faults.len() > ENOUGH {
+            return self.faults.push(fault);
+        }
         let names = shape.keys_of(kind).map(|key| key.name);
         let help = owner_of(&entry.key, &SCENARIO, "").or_else(|| did_you_mean(&entry.key, names));
         self.faults.push(fault.expected(known(shape, kind)).maybe_help(help));
@@ -151,7 +162,11 @@ fn owner_of(name: &str, shape: &Shape, path: &str) -> Option<String> {
         _ => None,
     };
     if shape.keys.iter().any(|key| key.name == name) {
-        return Some(if path.is_empty() { "it belongs to the top of the file, before the first [table]".to_owned() } else { format!("it belongs to [{path}]") });
+        return Some(if path.is_empty() {
+            "it belongs to the top of the file, before the first [table]".to_owned()
+        } else {
+            format!("it belongs to [{path}]")
+        });
     }
     let variant = shape.variants.iter().find(|variant| variant.keys.iter().any(|key| key.name == name));
     let of_variant = variant.map(|variant| format!("it belongs to [{path}] of kind `{}`", variant.kind));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::fault::{Code, Fault, Place, Severity};
+use super::fault::{Code, ENOUGH, Fault, Place, Severity};
 use super::source::Sources;
 
 /// One fault of a scenario.
@@ -58,21 +58,21 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Faults as diagnostics, in the order of the files and the places in them, none twice.
+/// Faults as diagnostics, errors before warnings, in the order of the files and the places in them, none twice. Beyond [`ENOUGH`], the
+/// rest is counted.
 pub(super) fn diagnose(faults: Vec<Fault>, sources: &Sources) -> Vec<Diagnostic> {
-    let mut diagnostics: Vec<Diagnostic> = Vec::new();
     let mut ordered = faults;
     ordered.sort_by_key(|fault| match &fault.place {
-        Place::Text(origin) => (Some(origin.source), origin.start),
-        Place::File(_) => (None, 0),
+        Place::Text(origin) => (fault.severity, Some(origin.source), origin.start),
+        Place::File(_) => (fault.severity, None, 0),
     });
-    for fault in ordered {
-        let diagnostic = of_fault(fault, sources);
-        if !diagnostics.contains(&diagnostic) {
-            diagnostics.push(diagnostic);
-        }
+    ordered.dedup();
+    let more = ordered.len().saturating_sub(ENOUGH);
+    if let Some(last) = ordered.get(ENOUGH).cloned() {
+        ordered.truncate(ENOUGH);
+        ordered.push(Fault { code: Code::More, message: format!("and {more} more faults"), expected: None, help: None, ..last });
     }
-    diagnostics
+    ordered.into_iter().map(|fault| of_fault(fault, sources)).collect()
 }
 
 fn of_fault(fault: Fault, sources: &Sources) -> Diagnostic {

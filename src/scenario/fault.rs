@@ -6,6 +6,9 @@ use serde::Serialize;
 
 use super::source::Origin;
 
+/// Faults beyond this number are only counted: nobody reads them, and a hostile file must not cost minutes.
+pub(super) const ENOUGH: usize = 100;
+
 /// What kind of fault it is. The names are part of the machine-readable output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -42,13 +45,15 @@ pub enum Code {
     Order,
     /// Settings that contradict each other.
     Conflict,
+    /// More faults than are shown.
+    More,
     /// A parameter of which the demonstrations say nothing, or nothing that far away.
     Untaught,
 }
 
 impl Code {
     /// Every code, in the order in which `cpdmp explain` lists them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Unreadable,
         Self::Encoding,
         Self::Syntax,
@@ -65,6 +70,7 @@ impl Code {
         Self::DuplicateName,
         Self::Order,
         Self::Conflict,
+        Self::More,
         Self::Untaught,
     ];
 
@@ -87,13 +93,14 @@ impl Code {
             Self::DuplicateName => ("duplicate_name", "a name that two objects or two criteria bear"),
             Self::Order => ("order", "times that do not rise"),
             Self::Conflict => ("conflict", "settings that contradict each other"),
+            Self::More => ("more", "there are more faults than are shown"),
             Self::Untaught => ("untaught", "a parameter that the demonstrations do not vary, or not that far (a warning)"),
         }
     }
 }
 
 /// How bad it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Severity {
     /// The scenario cannot be used.

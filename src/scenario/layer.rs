@@ -1,5 +1,6 @@
 //! Layers: a scenario may extend another one, and the layer above wins.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::fault::{Code, Fault};
@@ -51,7 +52,9 @@ impl Chain<'_> {
     fn base(&mut self, extends: &Node) -> Result<Node, Fault> {
         let fault = |code, message: String| Fault::at(code, extends.origin, message);
         let Some(typed) = extends.as_text() else {
-            return Err(fault(Code::WrongType, format!("`extends` is {}", extends.value.type_name())).expected("the path of a scenario file"));
+            return Err(
+                fault(Code::WrongType, format!("`extends` is {}", extends.value.type_name())).expected("the path of a scenario file")
+            );
         };
         let path = self.sources.get(extends.origin.source).directory.join(typed);
         self.roots.check(&path).map_err(|resolved| outside_roots(extends.origin, &resolved))?;
@@ -95,11 +98,12 @@ pub(super) fn merge(base: Node, over: Node) -> Node {
 }
 
 fn merge_tables(mut base: Vec<Entry>, over: Vec<Entry>) -> Vec<Entry> {
+    let places: BTreeMap<String, usize> = base.iter().enumerate().map(|(index, entry)| (entry.key.clone(), index)).collect();
     for entry in over {
-        match base.iter_mut().find(|earlier| earlier.key == entry.key) {
-            Some(earlier) => {
-                let below = std::mem::replace(&mut earlier.node, Node::missing(entry.origin));
-                *earlier = Entry { node: merge(below, entry.node), ..entry };
+        match places.get(&entry.key) {
+            Some(&index) => {
+                let below = std::mem::replace(&mut base[index].node, Node::missing(entry.origin));
+                base[index] = Entry { node: merge(below, entry.node), ..entry };
             }
             None => base.push(entry),
         }
@@ -109,14 +113,13 @@ fn merge_tables(mut base: Vec<Entry>, over: Vec<Entry>) -> Vec<Entry> {
 
 /// A name that comes twice in `over` stays twice, for the check of names to find.
 fn merge_named(mut base: Vec<Node>, over: Vec<Node>) -> Vec<Node> {
-    let mut merged = vec![false; base.len()];
+    let mut places: BTreeMap<String, usize> =
+        base.iter().enumerate().filter_map(|(index, item)| Some((item.name()?.to_owned(), index))).collect();
     for item in over {
-        let twin = item.name().and_then(|name| (0..merged.len()).find(|&i| !merged[i] && base[i].name() == Some(name)));
-        match twin {
+        match item.name().and_then(|name| places.remove(name)) {
             Some(index) => {
                 let below = std::mem::replace(&mut base[index], Node::missing(item.origin));
                 base[index] = merge(below, item);
-                merged[index] = true;
             }
             None => base.push(item),
         }

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
 use super::build;
+use super::build_criteria;
 use super::checks;
 use super::conform::Conform;
 use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
@@ -71,7 +72,7 @@ impl Scenario {
         match scenario {
             Some(filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => Ok(Self {
                 experiment: build::experiment(&filled),
-                criteria: build::criteria(&filled),
+                criteria: build_criteria::criteria(&filled),
                 recording: build::recording(&filled),
                 description: filled.text("description").to_owned(),
                 resolved: resolved::write(&filled),
@@ -88,7 +89,8 @@ fn read(path: &Path, options: &LoadOptions, sources: &mut Sources, faults: &mut 
     let directory = path.parent().unwrap_or(Path::new(""));
     let roots = Roots::new(directory, &options.asset_roots);
     let mut tree = layer::load(path, &roots, sources, faults)?;
-    if faults.iter().any(|fault| fault.code == Code::Syntax) {
+    // Without a part of the text, most of what could be said about the rest would be wrong.
+    if faults.iter().any(|fault| matches!(fault.code, Code::Syntax | Code::Extends | Code::OutsideRoot | Code::WrongType)) {
         return None;
     }
     for typed in &options.set {
@@ -130,4 +132,103 @@ fn newer_version(tree: &Node) -> Option<Fault> {
         let help = format!("use a newer cpdmp, or rewrite the scenario for version {SCHEMA_VERSION}");
         Fault::at(Code::Version, node.origin, message).expected(format!("{SCHEMA_VERSION}")).help(help)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learning::LearningSettings;
+    use crate::learning::cpdmp::CouplingSettings;
+    use crate::world::{HumanSettings, PhysicsSettings, SensorSettings};
+
+    /// A scenario with nothing but what must be typed.
+    const BARE: &str = r#"
+        schema_version = 1
+        name = "bare"
+        [teaching]
+        waypoint = [{ time_s = 0.0 }, { time_s = 28.0 }]
+    "#;
+
+    fn load(text: &str) -> Scenario {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("scenario.toml");
+        std::fs::write(&path, text).expect("written");
+        Scenario::load(&path, &LoadOptions::default()).expect("a good scenario")
+    }
+
+    #[test]
+    fn the_defaults_of_the_language_are_those_of_the_rooms() {
+        let experiment = load(BARE).experiment;
+        assert_eq!(experiment.learning, LearningSettings::default());
+        assert_eq!(experiment.execution.coupling, CouplingSettings::default());
+        assert_eq!(experiment.human, HumanSettings::default());
+        assert_eq!(experiment.robot.sensor, SensorSettings::default());
+        assert_eq!(experiment.physics, PhysicsSettings::default());
+    }
+
+    /// Contract: the resolved scenario says all that there is to say. It holds every kind of object, help and criterion once.
+    #[test]
+    fn the_resolved_scenario_means_the_same() {
+        let rich = r#"
+            [parameters]
+            height_m = 0.2
+            [[object]]
+            name = "table"
+            kind = "table"
+            center_m = [0.6, 0.2]
+            size_m = [1, 1]
+            top_height_m = -0.1
+            [[object]]
+            name = "block"
+            kind = "u_block"
+            center_m = [0.6, 0.2]
+            base_height_m = "height_m"
+            aperture_m = 0.2
+            post_height_m = 0.1
+            [[object]]
+            name = "toy"
+            kind = "ball"
+            center_m = [0.6, 0.0]
+            radius_m = 0.03
+            mass_kg = 0.05
+            [[object]]
+            name = "parcel"
+            kind = "box"
+            center_m = [0.6, 0.1]
+            size_m = [0.1, 0.1, 0.1]
+            mass_kg = 1
+            [[object]]
+            name = "basket"
+            kind = "basket"
+            center_m = [0.6, -0.2]
+            inner_size_m = [0.2, 0.2]
+            wall_height_m = 0.1
+            [robot.sensor]
+            filter_cutoff_hz = inf
+            [learning.compliance]
+            threshold_m2 = "automatic"
+            [human.help]
+            kind = "push"
+            force_n = [10, 0, 0]
+            windows_s = [[1, 2], [3, 4.5]]
+        "#;
+        let criteria = [
+            "object_in_container\"\nobject = \"toy\"\ncontainer = \"basket\"",
+            "no_contact\"\nobjects = [\"block\"]",
+            "clearance\"\nobjects = [\"block\"]\nmin_m = 0.005",
+            "goal_reached\"\nmax_m = 0.02",
+            "human_force\"\nmax_n = 15",
+            "compliance_window\"\nends_before = \"block\"",
+            "gripper_over_object\"\nobject = \"toy\"\nmax_m = 0.02",
+            "reference_unmoved\"\nmax_m = 0",
+            "gripper_unmoved\"\nmax_m = 0.015\nexpect = \"fail\"",
+        ];
+        let criteria = criteria.iter().enumerate().map(|(index, rest)| format!("[[criterion]]\nname = \"c{index}\"\nkind = \"{rest}\n"));
+        let typed = load(&format!("{BARE}{rich}{}", criteria.collect::<String>()));
+        let again = load(&typed.resolved);
+        assert_eq!(again.resolved, typed.resolved);
+        assert_eq!(format!("{:?}", again.experiment), format!("{:?}", typed.experiment));
+        assert_eq!(again.criteria, typed.criteria);
+        assert_eq!((typed.criteria.len(), typed.experiment.objects.len()), (9, 5));
+    }
 }

@@ -1,12 +1,14 @@
 //! Scenario files: the only room that knows TOML as a language.
 //!
-//! A file goes through three stages. `layer` and `overrides` read text into a tree whose values know where they were typed, one layer on
-//! top of the other. `conform` holds the tree against the table of keys in `schema`: types, ranges, unknown keys, defaults. `checks` looks at
-//! what no single key can tell. Only then is it turned into the settings of the rooms below. Every stage goes on after a fault, so that
-//! one pass tells them all.
+//! A file goes through three stages. `layer` and `overrides` read text into a tree whose values know where they were typed, one layer on the
+//! other. `conform` holds the tree against the table of keys in `schema`: types, ranges, unknown keys, defaults. `checks` looks at
+//! what no single key can tell. Only then is it turned into the settings of the rooms below. Every stage goes on after a fault, so that one
+//! pass tells them all.
 
 mod build;
+mod build_criteria;
 mod build_learning;
+mod build_scene;
 mod check_names;
 mod check_taught;
 mod check_times;

@@ -54,7 +54,9 @@ fn read<'a>(typed: &'a str, source: SourceId, faults: &mut Vec<Fault>) -> Result
         start += part.len() + 1;
     }
     if let Some(step) = path.iter().find(|step| step.name.is_empty()) {
-        return Err(Fault::at(Code::Override, step.origin, "a part of the key is empty").expected("KEY=VALUE, such as object.toy.radius_m=0.035"));
+        return Err(
+            Fault::at(Code::Override, step.origin, "a part of the key is empty").expected("KEY=VALUE, such as object.toy.radius_m=0.035")
+        );
     }
     if path[0].name == "extends" {
         return Err(Fault::at(Code::Override, path[0].origin, "`extends` can only be set in a scenario file"));
@@ -114,7 +116,8 @@ fn item<'a>(items: &'a mut [Node], step: &Step<'_>) -> Result<&'a mut Node, Faul
         return Ok(&mut items[index]);
     }
     let names: Vec<&str> = items.iter().filter_map(Node::name).collect();
-    let expected = if names.is_empty() { format!("a number below {}", items.len()) } else { format!("one of {}", name_list(names.iter().copied())) };
+    let expected =
+        if names.is_empty() { format!("a number below {}", items.len()) } else { format!("one of {}", name_list(names.iter().copied())) };
     let fault = Fault::at(Code::UnknownName, step.origin, format!("this list has no item `{}`", step.name));
     Err(fault.expected(expected).maybe_help(did_you_mean(step.name, names)))
 }

@@ -7,9 +7,16 @@ use super::fault::{Code, Fault};
 use super::source::{Origin, SourceId};
 use super::tree::{Entry, Node, Value};
 
+/// Longest text (bytes) of which every syntax error is told; of a longer one the first, because each costs a kilobyte and some time.
+const ALL_ERRORS_UP_TO: usize = 1 << 15;
+
 /// Reads a whole document.
 pub(super) fn document(text: &str, source: SourceId, faults: &mut Vec<Fault>) -> Node {
-    let (table, errors) = DeTable::parse_recoverable(text);
+    let (table, errors) = match DeTable::parse(text) {
+        Ok(table) => (table, Vec::new()),
+        Err(_) if text.len() <= ALL_ERRORS_UP_TO => DeTable::parse_recoverable(text),
+        Err(error) => (Spanned::new(0..0, DeTable::new()), vec![error]),
+    };
     let place = Place { source, offset: 0 };
     for error in &errors {
         faults.push(syntax_fault(error, place, text.len()));

@@ -21,13 +21,17 @@ impl Conform<'_> {
             (Kind::Flag, Value::Flag(_)) | (Kind::Text, Value::Text(_)) => typed.value,
             (Kind::Quantity(_), Value::Text(name)) if is_name(name) => typed.value,
             (Kind::NumberOrWord(_, word), Value::Text(text)) if text == word => typed.value,
-            (Kind::Number(measure) | Kind::Quantity(measure) | Kind::NumberOrWord(measure, _), _) => self.number(kind, measure, &typed, path),
+            (Kind::Number(measure) | Kind::Quantity(measure) | Kind::NumberOrWord(measure, _), _) => {
+                self.number(kind, measure, &typed, path)
+            }
             (Kind::Count(min, max), Value::Integer(count)) => self.count(*min, *max, *count, typed.origin, path),
             (Kind::Vector(measure, length), Value::List(items)) => {
                 self.length(*length, items.len(), typed.origin, path);
                 Value::List(self.numbers(measure, items, path))
             }
-            (Kind::Windows(measure), Value::List(items)) => Value::List(items.iter().map(|item| self.window(measure, item, path)).collect()),
+            (Kind::Windows(measure), Value::List(items)) => {
+                Value::List(items.iter().map(|item| self.window(measure, item, path)).collect())
+            }
             (Kind::Name, Value::Text(name)) => self.name(name, typed.origin, path),
             (Kind::Choice(choices), Value::Text(word)) => self.choice(word, choices.iter().copied(), typed.origin, path),
             (Kind::Reference(_), Value::Text(_)) => typed.value,

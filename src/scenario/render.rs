@@ -1,7 +1,9 @@
 //! Diagnostics with the line they are about and a caret under it.
 
+use std::ops::Range;
+
 use annotate_snippets::renderer::DecorStyle;
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
 use super::diagnostic::Diagnostic;
 use super::fault::Severity;
@@ -16,21 +18,29 @@ pub fn render(diagnostics: &[Diagnostic], colour: bool, unicode: bool, width: us
     rendered.join("\n")
 }
 
+/// Longest line that is shown (bytes). A longer one is a hostile file, and would only fill the screen.
+const MAX_LINE: usize = 2000;
+
 fn group(diagnostic: &Diagnostic) -> Group<'_> {
     let level = if diagnostic.severity == Severity::Error { Level::ERROR } else { Level::WARNING };
     let title = level.primary_title(&diagnostic.message).id(diagnostic.code.describe().0);
-    let mut group = match &diagnostic.span {
-        Some(span) => {
-            let mut mark = AnnotationKind::Primary.span(span.clone());
-            if let Some(expected) = &diagnostic.expected {
-                mark = mark.label(format!("expected {expected}"));
+    let expected = diagnostic.expected.as_ref().map(|expected| format!("expected {expected}"));
+    let mut group = match excerpt(diagnostic) {
+        Some((lines, line, span)) => {
+            let mut mark = AnnotationKind::Primary.span(span);
+            if let Some(expected) = expected {
+                mark = mark.label(expected);
             }
-            title.element(Snippet::source(&*diagnostic.text).path(&diagnostic.file).annotation(mark))
+            title.element(Snippet::source(lines).line_start(line).path(&diagnostic.file).annotation(mark))
         }
         None => {
-            let group = title.element(annotate_snippets::Origin::path(&diagnostic.file));
-            match &diagnostic.expected {
-                Some(expected) => group.element(Level::NOTE.message(format!("expected {expected}"))),
+            let mut origin = Origin::path(&diagnostic.file);
+            if let (Some(line), Some(column)) = (diagnostic.line, diagnostic.column) {
+                origin = origin.line(line).char_column(column);
+            }
+            let group = title.element(origin);
+            match expected {
+                Some(expected) => group.element(Level::NOTE.message(expected)),
                 None => group,
             }
         }
@@ -39,4 +49,13 @@ fn group(diagnostic: &Diagnostic) -> Group<'_> {
         group = group.element(Level::HELP.message(help));
     }
     group
+}
+
+/// The lines that the diagnostic is about, the number of the first one, and the span in them. Only these are handed to the renderer, whose
+/// work grows with the text.
+fn excerpt(diagnostic: &Diagnostic) -> Option<(&str, usize, Range<usize>)> {
+    let (span, text) = (diagnostic.span.clone()?, &*diagnostic.text);
+    let start = text[..span.start].rfind('\n').map_or(0, |index| index + 1);
+    let end = text[span.end..].find('\n').map_or(text.len(), |index| span.end + index);
+    (end - start <= MAX_LINE).then(|| (&text[start..end], diagnostic.line.unwrap_or(1), span.start - start..span.end - start))
 }

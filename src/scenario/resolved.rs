@@ -72,7 +72,11 @@ fn line(text: &mut String, key: &Key, value: Option<&Node>) {
 fn range(kind: &Kind) -> String {
     let of = |measure: &Measure| format!(" ({})", measure.describe());
     match kind {
-        Kind::Number(measure) | Kind::NumberOrWord(measure, _) | Kind::Quantity(measure) | Kind::Vector(measure, _) | Kind::Windows(measure) => of(measure),
+        Kind::Number(measure)
+        | Kind::NumberOrWord(measure, _)
+        | Kind::Quantity(measure)
+        | Kind::Vector(measure, _)
+        | Kind::Windows(measure) => of(measure),
         Kind::Count(min, max) if min < max && *max < i64::MAX => format!(" ({min} … {max})"),
         Kind::Choice(choices) => format!(" ({})", choices.join(", ")),
         _ => String::new(),

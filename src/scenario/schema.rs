@@ -1,7 +1,8 @@
 //! The table of keys: the whole scenario language on one page.
 
 use super::key::Kind::{
-    Choice, Count, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References, Section, Tag, Text, Vector, Windows,
+    Choice, Count, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References, Section, Tag,
+    Text, Vector, Windows,
 };
 use super::key::Length::{AtLeast, Exactly};
 use super::key::To::{Object, ObjectOfKind, Parameter};
@@ -37,10 +38,18 @@ const ROBOT: Shape = Shape::plain(&[
     Key::new("tool_link", Text, "the link that is the tool, at the grasp centre; its arm works").or(Preset::Text("left_gripper_tool")),
     Key::new("grasp_link", Text, "the link that a person takes hold of").or(Preset::Text("left_wrist")),
     Key::new("idle_tool_link", Text, "the link that is the other arm's tool").or(Preset::Text("right_hand")),
-    Key::new("rest_posture_rad", Vector(within("rad", -7.0, 7.0), AtLeast(1)), "posture that inverse kinematics prefers, from the shoulder")
-        .or(Preset::Vector(&[-0.4347, -1.0645, -0.4138, 1.934, 0.2873, 0.7587, -0.2272])),
-    Key::new("idle_posture_rad", Vector(within("rad", -7.0, 7.0), AtLeast(0)), "posture that the other arm holds; empty without another arm")
-        .or(Preset::Vector(&[0.6, -0.6, 0.0, 1.6, 0.0, 0.6, 0.0])),
+    Key::new(
+        "rest_posture_rad",
+        Vector(within("rad", -7.0, 7.0), AtLeast(1)),
+        "posture that inverse kinematics prefers, from the shoulder",
+    )
+    .or(Preset::Vector(&[-0.4347, -1.0645, -0.4138, 1.934, 0.2873, 0.7587, -0.2272])),
+    Key::new(
+        "idle_posture_rad",
+        Vector(within("rad", -7.0, 7.0), AtLeast(0)),
+        "posture that the other arm holds; empty without another arm",
+    )
+    .or(Preset::Vector(&[0.6, -0.6, 0.0, 1.6, 0.0, 0.6, 0.0])),
     Key::new("impedance", Section(IMPEDANCE), "the joint controller of both arms").or_empty(),
     Key::new("sensor", Section(SENSOR), "what is wrong with joints and wrench estimate").or_empty(),
 ]);
@@ -54,7 +63,8 @@ const IMPEDANCE: Shape = Shape::plain(&[
 
 const SENSOR: Shape = Shape::plain(&[
     Key::new("effort_noise_nm", Number(within("N m", 0.0, 5.0)), "white noise on each joint's effort, standard deviation").or_number(0.05),
-    Key::new("effort_bias_nm", Number(within("N m", 0.0, 5.0)), "constant offset of each joint's effort, standard deviation").or_number(0.1),
+    Key::new("effort_bias_nm", Number(within("N m", 0.0, 5.0)), "constant offset of each joint's effort, standard deviation")
+        .or_number(0.1),
     Key::new("dry_friction_nm", Number(within("N m", 0.0, 5.0)), "dry friction of each joint").or_number(0.1),
     Key::new("dynamics_model", Choice(&["gravity", "full"]), "what the wrench estimate subtracts").or(Preset::Text("gravity")),
     Key::new("filter_cutoff_hz", Number(within("Hz", 0.1, 500.0).or_infinite()), "low-pass on the wrench estimate").or_number(5.0),
@@ -100,7 +110,8 @@ const OBJECT: Shape = Shape {
                 Key::new("radius_m", Number(within("m", 0.001, 0.5)), "radius"),
                 Key::new("mass_kg", Number(within("kg", 0.001, 50.0)), "mass"),
                 Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.8),
-                Key::new("rolling_damping_per_s", Number(within("1/s", 0.0, 1000.0)), "rolling resistance, as angular damping").or_number(5.0),
+                Key::new("rolling_damping_per_s", Number(within("1/s", 0.0, 1000.0)), "rolling resistance, as angular damping")
+                    .or_number(5.0),
             ],
         },
         Variant {
@@ -124,8 +135,12 @@ const OBJECT: Shape = Shape {
 
 const TEACHING: Shape = Shape::plain(&[
     Key::new("tool_yaw_rad", Number(within("rad", -7.0, 7.0)), "turn of the downward-pointing tool about the vertical").or_number(0.0),
-    Key::new("zero_gravity_damping_nms_per_rad", Number(within("N m s/rad", 0.0, 100.0)), "damping of the joints while a person leads the arm")
-        .or_number(2.0),
+    Key::new(
+        "zero_gravity_damping_nms_per_rad",
+        Number(within("N m s/rad", 0.0, 100.0)),
+        "damping of the joints while a person leads the arm",
+    )
+    .or_number(2.0),
     Key::new("duration_s", Number(within("s", 0.5, 600.0)), "how long a demonstration lasts").or_number(28.0),
     Key::new("record_rate_hz", Number(within("Hz", 1.0, 1e4)), "samples per second of the dataset").or_number(100.0),
     Key::new("position_spread_m", Number(within("m", 0.0, 0.2)), "spread of a way-point between demonstrations, per axis").or_number(0.0),
@@ -137,7 +152,8 @@ const TEACHING: Shape = Shape::plain(&[
 const WAYPOINT: Shape = Shape::plain(&[
     Key::new("time_s", Number(within("s", 0.0, 600.0)), "when it is reached, from the start of the demonstration"),
     Key::new("at", Reference(Object), "the object whose anchor the offset is relative to; the world's origin without one").optional(),
-    Key::new("offset_m", Vector(within("m", -3.0, 3.0), Exactly(3)), "offset from the anchor, world axes").or(Preset::Vector(&[0.0, 0.0, 0.0])),
+    Key::new("offset_m", Vector(within("m", -3.0, 3.0), Exactly(3)), "offset from the anchor, world axes")
+        .or(Preset::Vector(&[0.0, 0.0, 0.0])),
     Key::new("gripper", Number(within("", 0.0, 1.0)), "opening that is commanded from here on (0 closed … 1 open)").optional(),
 ]);
 
@@ -169,7 +185,8 @@ const fn hidden_markov_model(states: i64) -> [Key; 8] {
         Key::new("topology", Choice(&["left_to_right", "ergodic"]), "which transitions exist").or(Preset::Text("left_to_right")),
         Key::new("weights_on_phase", Flag, "whether parameters also move the phase at which a state sits").or(Preset::Flag(false)),
         Key::new("ridge", Number(within("", 0.0, 1e6)), "strength of the prior W = 0, as a number of demonstrations").or_number(0.1),
-        Key::new("covariance_floor", Number(within("", 1e-12, 0.1)), "smallest eigenvalue of a covariance, columns scaled to 1").or_number(1e-5),
+        Key::new("covariance_floor", Number(within("", 1e-12, 0.1)), "smallest eigenvalue of a covariance, columns scaled to 1")
+            .or_number(1e-5),
         Key::new("kmeans_starts", Count(0, 1000), "starts by k-means, besides the two by time slices").or(Preset::Count(4)),
         Key::new("max_iterations", Count(1, 100_000), "most iterations of each stage").or(Preset::Count(200)),
         Key::new("tolerance", Number(within("", 0.0, 1.0)), "relative rise of the objective below which iterations stop").or_number(1e-6),
@@ -188,7 +205,8 @@ const COUPLING: Shape = Shape::plain(&[
         .or(Preset::Vector(&[0.01])),
     Key::new("saturation_m", Number(within("m", 0.0, 10.0)), "largest displacement, per axis").or_number(0.1),
     Key::new("convention", Choice(&["on_robot", "on_world"]), "whose force the wrench columns hold").or(Preset::Text("on_robot")),
-    Key::new("switching", Choice(&["smooth", "hard"]), "how the coupling goes on and off at the edges of a window").or(Preset::Text("smooth")),
+    Key::new("switching", Choice(&["smooth", "hard"]), "how the coupling goes on and off at the edges of a window")
+        .or(Preset::Text("smooth")),
     Key::new("switching_ramp", Number(within("", 0.01, 100.0)), "length of the smooth edge, in units of 1/omega").or_number(1.0),
 ]);
 
@@ -204,6 +222,16 @@ const HUMAN: Shape = Shape::plain(&[
     Key::new("rotational_damping_nms_per_rad", Number(within("N m s/rad", 0.0, 50.0)), "rotational damping of the grip").or_number(1.5),
     Key::new("teaching_force_max_n", Number(within("N", 0.0, 200.0)), "largest force while teaching").or_number(40.0),
     Key::new("moment_max_nm", Number(within("N m", 0.0, 50.0)), "largest moment of the grip").or_number(8.0),
+    Key::new("helping_stiffness_n_per_m", Number(within("N/m", 0.0, 2000.0)), "push of a helping hand per metre that the gripper is off")
+        .or_number(60.0),
+    Key::new("helping_rate_n_per_ms", Number(within("N/(m s)", 0.0, 5000.0)), "how fast it pushes harder while the gripper stays off")
+        .or_number(150.0),
+    Key::new("aim_spread_m", Number(within("m", 0.0, 0.1)), "how far a helping person misjudges where an object is, standard deviation")
+        .or_number(0.003),
+    Key::new("strength_spread", Number(within("", 0.0, 0.5)), "how much helping people differ in strength and reach, as a fraction")
+        .or_number(0.15),
+    Key::new("helping_damping_ns_per_m", Number(within("N s/m", 0.0, 500.0)), "how much it holds back while the gripper moves")
+        .or_number(10.0),
     Key::new("visual_gain_per_s", Number(within("1/s", 0.0, 20.0)), "rate of the visual correction").or_number(2.0),
     Key::new("visual_correction_max_m", Number(within("m", 0.0, 0.5)), "largest visual correction").or_number(0.12),
     Key::new("help", Section(HELP), "what the person does while the skill is executed").or_empty(),
@@ -285,3 +313,57 @@ const CRITERION: Shape = Shape {
         },
     ],
 };
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::super::key::Kind;
+    use super::*;
+
+    /// Every table of the language, with each of its kinds.
+    fn tables(shape: &Shape, all: &mut Vec<Vec<Key>>) {
+        all.push(shape.keys.to_vec());
+        all.extend(shape.variants.iter().map(|variant| shape.keys_of(Some(variant.kind)).copied().collect()));
+        for key in all.last().cloned().unwrap_or_default() {
+            if let Kind::Section(inner) | Kind::List(inner) = key.kind {
+                tables(&inner, all);
+            }
+        }
+    }
+
+    fn language() -> Vec<Vec<Key>> {
+        let mut all = Vec::new();
+        tables(&SCENARIO, &mut all);
+        all
+    }
+
+    #[test]
+    fn no_table_has_a_key_twice() {
+        for table in language() {
+            let names: BTreeSet<&str> = table.iter().map(|key| key.name).collect();
+            assert_eq!(names.len(), table.len(), "{names:?}");
+        }
+    }
+
+    #[test]
+    fn what_stands_for_an_absent_key_suits_the_key() {
+        for key in language().concat() {
+            let suits = match (key.kind, key.preset) {
+                (Number(measure) | Quantity(measure) | NumberOrWord(measure, _), Preset::Number(number)) => measure.accepts(number),
+                (Vector(measure, Exactly(length)), Preset::Vector(numbers)) => {
+                    numbers.len() == length && numbers.iter().all(|&number| measure.accepts(number))
+                }
+                (Vector(measure, AtLeast(length)), Preset::Vector(numbers)) => {
+                    numbers.len() >= length && numbers.iter().all(|&number| measure.accepts(number))
+                }
+                (Count(min, max), Preset::Count(count)) => (min..=max).contains(&count),
+                (Choice(choices), Preset::Text(text)) => choices.contains(&text),
+                (Flag, Preset::Flag(_)) | (Text | Path(_) | Tag, Preset::Text(_)) => true,
+                (Numbers | Grid | Section(_) | List(_) | References(_) | Folders, Preset::Empty) => true,
+                (_, preset) => matches!(preset, Preset::Required | Preset::Optional),
+            };
+            assert!(suits, "{key:?}");
+        }
+    }
+}

@@ -7,13 +7,17 @@ pub(super) fn did_you_mean<'a>(typed: &str, known: impl IntoIterator<Item = &'a 
     nearest(typed, known).map(|name| format!("did you mean `{name}`?"))
 }
 
+/// Most names that are compared.
+const MAX_NAMES: usize = 200;
+
 /// The known name that is closest to what was typed, if it is close.
 fn nearest<'a>(typed: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = typed.to_lowercase();
     known
         .into_iter()
+        .take(MAX_NAMES)
         .map(|name| (closeness(&lower, name), name))
-        .filter(|(score, _)| *score >= 0.75)
+        .filter(|(score, _)| *score >= 0.65)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, name)| name)
 }

@@ -38,7 +38,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
     let step_s = experiment.physics.step_s;
     let mut controller = SkillController::new(skill, execution, setup.tracker(), setup.observer(), orientation, step_s);
     let names: Vec<String> = experiment.objects.iter().map(|object| object.name.clone()).collect();
-    let mut person = helper(&experiment.execution.help, &experiment.human, &names);
+    let mut person = helper(&experiment.execution.help, &experiment.human, &names, experiment.seed);
     let steps = setup.steps(duration + experiment.execution.settle_s) + 1;
     let every = setup.steps(1.0 / experiment.log_rate_hz).max(1);
     let mut records = Vec::with_capacity((steps / every) as usize + 1);

@@ -20,6 +20,6 @@ pub use error::SimulationError;
 pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings, TeachingPlan, Waypoint};
 pub use outcome::{AppliedForce, FinalObject, PhaseSummary, RunOutcome};
 pub use progress::{Progress, Silent};
-pub use run::run;
+pub use run::{History, demonstrate, perform, run};
 pub use setup::Setup;
 pub use step_record::StepRecord;

@@ -1,10 +1,11 @@
 //! What the person does in each kind of run. They see the scene as people do, and act through a hand on the wrist.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use rand_chacha::ChaCha8Rng;
 
 use super::guide_path::GuidePath;
 use super::{AppliedForce, Help};
-use crate::math::smooth_step;
+use crate::math::{self, smooth_step};
 use crate::world::{GraspState, Hand, HandWrench, HumanSettings, World};
 
 /// Seconds in which a hand takes hold or lets go.
@@ -62,20 +63,32 @@ pub(super) struct Guide {
     reach_m: f64,
     force_max_n: f64,
     weight: [f64; 2],
+    /// By how much this person misjudges where the object is (m).
+    misjudged: Vector3<f64>,
     since: Option<f64>,
     closed_since: Option<f64>,
     strength: f64,
 }
 
 impl Guide {
-    pub(super) fn new(settings: &HumanSettings, object: usize, reach_m: f64, force_max_n: f64, weight: [f64; 2]) -> Self {
-        Self { hand: Hand::new(settings.clone()), object, reach_m, force_max_n, weight, since: None, closed_since: None, strength: 0.0 }
+    /// A person who differs a little from others, as `variation` draws.
+    fn new(settings: &HumanSettings, object: usize, reach_m: f64, force_max_n: f64, weight: [f64; 2], variation: &mut ChaCha8Rng) -> Self {
+        let mut draw = |spread: f64| spread * math::standard_normal(variation).clamp(-2.0, 2.0);
+        let misjudged = Vector3::new(draw(settings.aim_spread_m), draw(settings.aim_spread_m), 0.0);
+        let (strength, reach) = (1.0 + draw(settings.strength_spread), 1.0 + 0.5 * draw(settings.strength_spread));
+        let settings = HumanSettings {
+            helping_stiffness_n_per_m: settings.helping_stiffness_n_per_m * strength,
+            helping_rate_n_per_ms: settings.helping_rate_n_per_ms * strength,
+            ..settings.clone()
+        };
+        let reach_m = reach_m * reach;
+        Self { hand: Hand::new(settings), object, reach_m, force_max_n, weight, misjudged, since: None, closed_since: None, strength: 0.0 }
     }
 }
 
 impl Person for Guide {
     fn act(&mut self, world: &World, step_s: f64) -> HandWrench {
-        let away = world.object_pose(self.object).translation.vector - world.tool_pose().translation.vector;
+        let away = world.object_pose(self.object).translation.vector + self.misjudged - world.tool_pose().translation.vector;
         let now = world.time_s();
         if self.since.is_none() && away.xy().norm() <= self.reach_m {
             self.since = Some(now);
@@ -92,7 +105,7 @@ impl Person for Guide {
         // Once the fingers close there is nothing left to correct: the hand only holds its place.
         let watching = self.closed_since.is_none();
         let gaze_error = if watching { Vector3::new(self.weight[0] * away.x, self.weight[1] * away.y, 0.0) } else { Vector3::zeros() };
-        self.hand.nudge(step_s, &world.grasp_state(), gaze_error, smooth_step(self.strength, 0.0, 1.0), self.force_max_n)
+        self.hand.help(step_s, &world.grasp_state(), gaze_error, smooth_step(self.strength, 0.0, 1.0), self.force_max_n)
     }
 }
 
@@ -118,12 +131,15 @@ impl Person for Pusher {
     }
 }
 
-/// The person of an execution. `objects` are the names of the scene's objects.
-pub(super) fn helper(help: &Help, settings: &HumanSettings, objects: &[String]) -> Box<dyn Person> {
+/// The person of an execution; `seed` decides who it is. `objects` are the names of the scene's objects.
+pub(super) fn helper(help: &Help, settings: &HumanSettings, objects: &[String], seed: u64) -> Box<dyn Person> {
     match help {
         Help::None => Box::new(Nobody),
         Help::Guide { object, reach_m, force_max_n, weight_xy } => match objects.iter().position(|name| name == object) {
-            Some(index) => Box::new(Guide::new(settings, index, *reach_m, *force_max_n, *weight_xy)),
+            Some(index) => {
+                let mut variation = math::stream(seed, "helper", 0);
+                Box::new(Guide::new(settings, index, *reach_m, *force_max_n, *weight_xy, &mut variation))
+            }
             None => Box::new(Nobody),
         },
         Help::Push { force_n, windows_s } => Box::new(Pusher { force: Vector3::from(*force_n), windows_s: windows_s.clone() }),

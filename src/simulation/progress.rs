@@ -8,6 +8,8 @@ pub trait Progress: Sync {
     fn advance(&self, steps: u64);
     /// Something worth a line.
     fn note(&self, text: &str);
+    /// Seconds on the listener's clock, for saying how long things took: this room has none.
+    fn elapsed_s(&self) -> f64;
 }
 
 /// Nobody listens.
@@ -17,4 +19,7 @@ impl Progress for Silent {
     fn phase(&self, _name: &str, _steps: u64) {}
     fn advance(&self, _steps: u64) {}
     fn note(&self, _text: &str) {}
+    fn elapsed_s(&self) -> f64 {
+        0.0
+    }
 }

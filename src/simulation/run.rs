@@ -1,6 +1,4 @@
-//! One experiment from beginning to end.
-
-use std::time::Instant;
+//! One experiment from beginning to end, and its three parts for those who repeat only one of them.
 
 use rayon::prelude::*;
 use twox_hash::XxHash3_64;
@@ -19,43 +17,65 @@ use crate::learning::{self, Learned};
 /// When the robot, the demonstrations or a pose cannot be used, nothing can be learned, or the simulation diverges.
 pub fn run(experiment: &Experiment, progress: &dyn Progress) -> Result<RunOutcome, SimulationError> {
     let setup = Setup::new(experiment)?;
-    let mut book = PhaseBook { phases: Vec::new(), hashes: Vec::new() };
-    let dataset = match &experiment.demonstrations {
-        DemonstrationSource::Teach(plan) => taught(&setup, plan, progress, &mut book)?,
+    let (dataset, mut history) = demonstrate(&setup, progress)?;
+    let started = progress.elapsed_s();
+    progress.phase("learn", 0);
+    let learned = learning::learn(&dataset, &experiment.learning, experiment.seed)?;
+    history.close("learn", 0, started, progress);
+    perform(&setup, &dataset, &learned, history, progress)
+}
+
+/// The demonstrations of an experiment: taught and replayed, or read.
+///
+/// # Errors
+/// When a pose cannot be reached, a file cannot be used, or the simulation diverges.
+pub fn demonstrate(setup: &Setup, progress: &dyn Progress) -> Result<(Dataset, History), SimulationError> {
+    let mut history = History::default();
+    let dataset = match &setup.experiment.demonstrations {
+        DemonstrationSource::Teach(plan) => taught(setup, plan, progress, &mut history)?,
         DemonstrationSource::Dataset(folder) => Dataset::read(folder)?,
     };
-    let started = Instant::now();
-    progress.phase("learn", 0);
-    let Learned { skill, report } = learning::learn(&dataset, &experiment.learning, experiment.seed)?;
-    book.close("learn", 0, started, progress);
+    Ok((dataset, history))
+}
 
-    let started = Instant::now();
-    let plan = learning::generate(&skill, &settings(&setup), 1.0 / experiment.log_rate_hz, 1.0)?;
+/// Executes a learned skill in the experiment's setting; `history` is what came before.
+///
+/// # Errors
+/// When the skill does not fit the experiment, its start cannot be reached, or the simulation diverges.
+pub fn perform(
+    setup: &Setup,
+    dataset: &Dataset,
+    learned: &Learned,
+    mut history: History,
+    progress: &dyn Progress,
+) -> Result<RunOutcome, SimulationError> {
+    let started = progress.elapsed_s();
+    let plan = learning::generate(&learned.skill, &settings(setup), 1.0 / setup.experiment.log_rate_hz, 1.0)?;
     progress.phase("execute", 0);
-    let executed = execute(&setup, &skill)?;
-    book.hashes.push(executed.state_hash);
-    book.close("execute", executed.steps, started, progress);
-    let state_hash = book.hash();
+    let executed = execute(setup, &learned.skill)?;
+    history.hashes.push(executed.state_hash);
+    history.close("execute", executed.steps, started, progress);
+    let state_hash = history.hash();
     Ok(RunOutcome {
-        robot: setup.robot,
-        robot_warnings: setup.warnings,
-        dataset,
-        skill,
-        learning: report,
+        robot: setup.robot.clone(),
+        robot_warnings: setup.warnings.clone(),
+        dataset: dataset.clone(),
+        skill: learned.skill.clone(),
+        learning: learned.report.clone(),
         plan,
         steps: executed.records,
         collisions: executed.collisions,
         clearances: executed.clearances,
-        phases: book.phases,
+        phases: history.phases,
         state_hash,
         final_objects: executed.final_objects,
     })
 }
 
 /// Teaches all demonstrations, then replays each; both on all cores, the result independent of their number.
-fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, book: &mut PhaseBook) -> Result<Dataset, SimulationError> {
+fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: &mut History) -> Result<Dataset, SimulationError> {
     let settings = settings_of(plan, &setup.experiment.parameters);
-    let started = Instant::now();
+    let started = progress.elapsed_s();
     let each = setup.steps(plan.duration_s) + 1;
     progress.phase("teach", each * settings.len() as u64);
     let lessons: Vec<Lesson> = settings
@@ -67,10 +87,10 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, book: &mu
             Ok(lesson)
         })
         .collect::<Result<_, SimulationError>>()?;
-    book.hashes.extend(lessons.iter().map(|lesson| lesson.state_hash));
-    book.close("teach", lessons.iter().map(|lesson| lesson.steps).sum(), started, progress);
+    history.hashes.extend(lessons.iter().map(|lesson| lesson.state_hash));
+    history.close("teach", lessons.iter().map(|lesson| lesson.steps).sum(), started, progress);
 
-    let started = Instant::now();
+    let started = progress.elapsed_s();
     progress.phase("replay", each * lessons.len() as u64);
     let replays: Vec<(Demonstration, u64, u64)> = lessons
         .par_iter()
@@ -80,8 +100,8 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, book: &mu
             Ok((demonstration(setup, lesson, &replayed.wrench)?, replayed.state_hash, replayed.steps))
         })
         .collect::<Result<_, SimulationError>>()?;
-    book.hashes.extend(replays.iter().map(|(_, hash, _)| *hash));
-    book.close("replay", replays.iter().map(|(_, _, steps)| *steps).sum(), started, progress);
+    history.hashes.extend(replays.iter().map(|(_, hash, _)| *hash));
+    history.close("replay", replays.iter().map(|(_, _, steps)| *steps).sum(), started, progress);
     Ok(Dataset {
         motion: ["x_m", "y_m", "z_m"].map(String::from).to_vec(),
         wrench: ["fx_n", "fy_n", "fz_n"].map(String::from).to_vec(),
@@ -89,15 +109,16 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, book: &mu
     })
 }
 
-/// What each phase took, and the hashes of all worlds in a fixed order.
-struct PhaseBook {
+/// What has been simulated so far: the phases, and the hashes of all worlds in a fixed order.
+#[derive(Clone, Debug, Default)]
+pub struct History {
     phases: Vec<PhaseSummary>,
     hashes: Vec<u64>,
 }
 
-impl PhaseBook {
-    fn close(&mut self, name: &str, steps: u64, started: Instant, progress: &dyn Progress) {
-        let wall_s = started.elapsed().as_secs_f64();
+impl History {
+    fn close(&mut self, name: &str, steps: u64, started_s: f64, progress: &dyn Progress) {
+        let wall_s = progress.elapsed_s() - started_s;
         progress.note(&format!("{name}: {wall_s:.1} s"));
         self.phases.push(PhaseSummary { name: name.into(), steps, wall_s });
     }

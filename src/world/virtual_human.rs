@@ -20,10 +20,20 @@ pub struct HumanSettings {
     pub teaching_force_max_n: f64,
     /// Largest moment of the grip (N m), 0 … 50. Default 8.
     pub moment_max_nm: f64,
-    /// Rate of the visual correction (1/s), 0 … 20. Default 2.
+    /// Rate of the visual correction while leading (1/s), 0 … 20. Default 2.
     pub visual_gain_per_s: f64,
     /// Largest visual correction (m), 0 … 0.5. Default 0.12.
     pub visual_correction_max_m: f64,
+    /// How hard a helping hand pushes per metre that the gripper is off (N/m), 0 … 2000. Default 60: gently, the arm is said to comply.
+    pub helping_stiffness_n_per_m: f64,
+    /// How fast it pushes harder while the gripper stays off (N/(m s)), 0 … 5000. Default 150.
+    pub helping_rate_n_per_ms: f64,
+    /// How much it holds back while the gripper moves (N s/m), 0 … 500. Default 10.
+    pub helping_damping_ns_per_m: f64,
+    /// How far a helping person misjudges where an object is, one standard deviation along x and y (m), 0 … 0.1. Default 0.003.
+    pub aim_spread_m: f64,
+    /// How much one helping person differs from another in strength and reach, one standard deviation as a fraction, 0 … 0.5. Default 0.15.
+    pub strength_spread: f64,
 }
 
 impl Default for HumanSettings {
@@ -37,6 +47,11 @@ impl Default for HumanSettings {
             moment_max_nm: 8.0,
             visual_gain_per_s: 2.0,
             visual_correction_max_m: 0.12,
+            helping_stiffness_n_per_m: 60.0,
+            helping_rate_n_per_ms: 150.0,
+            helping_damping_ns_per_m: 10.0,
+            aim_spread_m: 0.003,
+            strength_spread: 0.15,
         }
     }
 }
@@ -67,13 +82,16 @@ pub struct GraspState {
 #[derive(Clone, Debug)]
 pub struct Hand {
     settings: HumanSettings,
+    /// Where the wanted place is shifted to by what the eyes see, while leading (m).
     correction: Vector3<f64>,
+    /// The push that has built up, while helping (N).
+    push: Vector3<f64>,
 }
 
 impl Hand {
     /// A hand that has just taken hold.
     pub fn new(settings: HumanSettings) -> Self {
-        Self { settings, correction: Vector3::zeros() }
+        Self { settings, correction: Vector3::zeros(), push: Vector3::zeros() }
     }
 
     /// Leads the grasped wrist to `wanted` (pose and velocity of the same point) while watching `gaze_error`, the vector from where the
@@ -89,18 +107,16 @@ impl Hand {
         HandWrench { point: point_of(grasp), force: capped(force, force_max_n), moment: capped(moment, h.moment_max_nm) }
     }
 
-    /// Pushes the gripper along `gaze_error` (m, world) as a person does who corrects a moving arm: pulls towards the target, harder the longer it stays
-    /// away, and damps. `strength` (0 … 1) is how far the hand has taken hold. Never twists.
-    pub fn nudge(&mut self, dt_s: f64, grasp: &GraspState, gaze_error: Vector3<f64>, strength: f64, force_max_n: f64) -> HandWrench {
-        self.watch(dt_s, strength * gaze_error);
+    /// Helps the gripper along `gaze_error` (m, world), as a person corrects an arm that moves by itself: pushes the harder the further and the
+    /// longer the gripper is off, and holds back while it moves. Directions in which `gaze_error` is zero are left alone. `strength` (0 … 1) is
+    /// how far the hand has taken hold. Never twists.
+    pub fn help(&mut self, dt_s: f64, grasp: &GraspState, gaze_error: Vector3<f64>, strength: f64, force_max_n: f64) -> HandWrench {
         let h = &self.settings;
-        let force = strength * h.stiffness_n_per_m * self.correction;
+        self.push = capped(self.push + h.helping_rate_n_per_ms * dt_s * strength * gaze_error, force_max_n);
+        let care = gaze_error.map(|e| if e == 0.0 { 0.0 } else { 1.0 });
+        let held_back = h.helping_damping_ns_per_m * grasp.linear_velocity.component_mul(&care);
+        let force = strength * (h.helping_stiffness_n_per_m * gaze_error + self.push - held_back);
         HandWrench { point: point_of(grasp), force: capped(force, force_max_n), moment: Vector3::zeros() }
-    }
-
-    /// Lets go.
-    pub fn release(&mut self) {
-        self.correction = Vector3::zeros();
     }
 
     fn watch(&mut self, dt_s: f64, gaze_error: Vector3<f64>) {

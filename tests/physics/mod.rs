@@ -1,5 +1,13 @@
-//! The simulated world against closed forms.
+//! The robot's mathematics and the simulated world, each against independent truth.
 
 mod closed_forms;
 mod joint_torques;
+mod robot_arm;
+mod robot_dynamics;
+mod robot_inverse_kinematics;
+mod robot_kinematics;
+mod robot_meshes;
+mod robot_official;
+mod robot_urdf;
+mod robot_wrench;
 mod wrench;

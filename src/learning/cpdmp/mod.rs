@@ -14,11 +14,11 @@ mod motion_model;
 mod segments;
 mod shaping_function;
 
-pub use compliance::{Compliance, ComplianceSettings, Statistic, Threshold};
 pub(super) use compliance::state_spreads;
+pub use compliance::{Compliance, ComplianceSettings, Statistic, Threshold};
 pub use force_coupling::{CouplingSettings, ForceConvention, ForceCoupling, Switching};
 pub use force_model::ForceModel;
-pub use motion_model::{MotionModel, Shaping};
 pub(super) use motion_model::spatial_columns;
+pub use motion_model::{MotionModel, Shaping};
 pub use segments::{ComplianceWindow, Segment, compliance_windows, segments};
 pub use shaping_function::ShapingFunction;

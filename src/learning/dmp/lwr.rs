@@ -7,8 +7,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::math::solve_weighted;
 use crate::math::MathError;
+use crate::math::solve_weighted;
 
 /// A forcing term of one or more degrees of freedom over the phase.
 #[derive(Debug, Clone, PartialEq)]

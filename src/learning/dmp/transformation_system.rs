@@ -52,10 +52,7 @@ impl TransformationSystem {
     #[must_use]
     pub fn runge_kutta(&self, motion: Motion, c: [f64; 3], dt_s: f64) -> Motion {
         let slope = |m: Motion, c: f64| Motion { position: m.velocity, velocity: self.acceleration(m, c) };
-        let along = |k: Motion, h: f64| Motion {
-            position: motion.position + h * k.position,
-            velocity: motion.velocity + h * k.velocity,
-        };
+        let along = |k: Motion, h: f64| Motion { position: motion.position + h * k.position, velocity: motion.velocity + h * k.velocity };
         let k1 = slope(motion, c[0]);
         let k2 = slope(along(k1, 0.5 * dt_s), c[1]);
         let k3 = slope(along(k2, 0.5 * dt_s), c[1]);

@@ -43,49 +43,51 @@ pub fn expect(model: &Phmm, sequence: &Sequence) -> Option<Expectation> {
     Some(chain.scaled(&log_b).unwrap_or_else(|| chain.in_logarithms(&log_b)))
 }
 
-/// The transitions that exist, by their end and by their start.
+/// The transitions that exist.
 pub(super) struct Chain {
     pub(super) initial: Vec<f64>,
-    pub(super) into: Vec<Vec<(usize, f64)>>,
-    pub(super) out_of: Vec<Vec<(usize, f64)>>,
+    /// Sorted by `from`, then by `to`.
+    pub(super) edges: Vec<Edge>,
+}
+
+/// A transition that exists, and its probability.
+#[derive(Clone, Copy)]
+pub(super) struct Edge {
+    pub(super) from: usize,
+    pub(super) to: usize,
+    pub(super) probability: f64,
 }
 
 impl Chain {
     pub(super) fn new(initial: &DVector<f64>, transition: &DMatrix<f64>) -> Self {
         let n = initial.len();
-        let (mut into, mut out_of) = (vec![Vec::new(); n], vec![Vec::new(); n]);
-        for i in 0..n {
-            for j in (0..n).filter(|j| transition[(i, *j)] > 0.0) {
-                into[j].push((i, transition[(i, j)]));
-                out_of[i].push((j, transition[(i, j)]));
-            }
-        }
-        Self { initial: initial.iter().copied().collect(), into, out_of }
+        let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to)));
+        let edges = pairs.map(|(from, to)| Edge { from, to, probability: transition[(from, to)] });
+        Self { initial: initial.iter().copied().collect(), edges: edges.filter(|e| e.probability > 0.0).collect() }
     }
 
     /// The recursions with scaling, from log densities (T x N); `None` when underflow could matter.
     pub(super) fn scaled(&self, log_b: &[f64]) -> Option<Expectation> {
         let n = self.initial.len();
-        let mut b = Vec::with_capacity(log_b.len());
-        let mut alpha = Vec::with_capacity(log_b.len());
+        let (mut b, mut alpha) = (Vec::with_capacity(log_b.len()), Vec::with_capacity(log_b.len()));
         let mut c = Vec::with_capacity(log_b.len() / n);
         let (mut scaled_likelihood, mut shifts) = (0.0, 0.0);
+        let mut arriving = self.initial.clone();
         for log_row in log_b.chunks_exact(n) {
-            let before = alpha.len();
+            let row = alpha.len();
             shifts += push_shifted(log_row, &mut b);
-            for j in 0..n {
-                let arriving = match before {
-                    0 => self.initial[j],
-                    _ => self.into[j].iter().map(|(i, a)| a * alpha[before - n + i]).sum(),
-                };
-                alpha.push(b[before + j] * arriving);
-            }
-            let total: f64 = alpha[before..].iter().sum();
-            alpha[before..].iter_mut().for_each(|a| *a = something(*a / total));
-            scaled_likelihood += total.ln();
+            alpha.extend(arriving.iter().zip(&b[row..]).map(|(a, b)| a * b));
+            let total: f64 = alpha[row..].iter().sum();
+            let scale = total.recip();
+            alpha[row..].iter_mut().for_each(|a| *a = something(*a * scale));
             c.push(total);
+            scaled_likelihood += total.ln();
             if scaled_likelihood.is_nan() || scaled_likelihood < SMALLEST_SCALED_LIKELIHOOD {
                 return None;
+            }
+            arriving.fill(0.0);
+            for edge in &self.edges {
+                arriving[edge.to] += edge.probability * alpha[row + edge.from];
             }
         }
         let transitions = self.scaled_backward(&b, &c, &mut alpha);
@@ -95,22 +97,28 @@ impl Chain {
     /// Turns normalised `alpha` into `gamma` (T x N) and sums `xi` (N x N).
     fn scaled_backward(&self, b: &[f64], c: &[f64], alpha: &mut [f64]) -> DMatrix<f64> {
         let n = self.initial.len();
-        let mut transitions = DMatrix::zeros(n, n);
+        let mut counts = vec![0.0; self.edges.len()];
         let (mut beta, mut ahead) = (vec![1.0; n], vec![0.0; n]);
         for t in (0..c.len().saturating_sub(1)).rev() {
+            let scale = c[t + 1].recip();
             for (a, (b, beta)) in ahead.iter_mut().zip(b[(t + 1) * n..(t + 2) * n].iter().zip(&beta)) {
-                *a = b * beta / c[t + 1];
+                *a = b * beta * scale;
             }
-            for (i, gamma) in alpha[t * n..(t + 1) * n].iter_mut().enumerate() {
-                beta[i] = 0.0;
-                for (j, a) in &self.out_of[i] {
-                    let onward = a * ahead[*j];
-                    beta[i] += onward;
-                    transitions[(i, *j)] += *gamma * onward;
-                }
-                beta[i] = something(beta[i]);
-                *gamma *= beta[i];
+            let row = &mut alpha[t * n..(t + 1) * n];
+            beta.fill(0.0);
+            for (edge, count) in self.edges.iter().zip(&mut counts) {
+                let onward = edge.probability * ahead[edge.to];
+                beta[edge.from] += onward;
+                *count += row[edge.from] * onward;
             }
+            for (gamma, beta) in row.iter_mut().zip(&mut beta) {
+                *beta = something(*beta);
+                *gamma *= *beta;
+            }
+        }
+        let mut transitions = DMatrix::zeros(n, n);
+        for (edge, count) in self.edges.iter().zip(counts) {
+            transitions[(edge.from, edge.to)] = count;
         }
         transitions
     }

@@ -5,7 +5,7 @@
 
 use nalgebra::DMatrix;
 
-use super::forward_backward::{Chain, Expectation};
+use super::forward_backward::{Chain, Edge, Expectation};
 use crate::math::{log_sum_exp, softmax_in_place};
 
 /// A shifted sum below this may have lost terms to underflow (1e-308) that matter at double precision (1e-16): take it exactly.
@@ -25,11 +25,12 @@ impl Chain {
         let n = self.initial.len();
         let mut log_alpha = Vec::with_capacity(log_b.len());
         log_alpha.extend(self.initial.iter().zip(log_b).map(|(p, b)| p.ln() + b));
+        let into = self.neighbours(|edge| (edge.to, edge.from));
         let mut shifted = vec![0.0; n];
         for row in log_b.chunks_exact(n).skip(1) {
             let before = log_alpha.len() - n;
             let shift = exponentials(&log_alpha[before..], &mut shifted);
-            for (entries, b) in self.into.iter().zip(row) {
+            for (entries, b) in into.iter().zip(row) {
                 let log_sum = log_weighted_sum(entries, &shifted, shift, &log_alpha[before..before + n]).0;
                 log_alpha.push(log_sum + b);
             }
@@ -41,6 +42,7 @@ impl Chain {
     fn log_backward(&self, log_b: &[f64], log_alpha: Vec<f64>) -> (Vec<f64>, DMatrix<f64>) {
         let n = self.initial.len();
         let mut gamma = log_alpha;
+        let out_of = self.neighbours(|edge| (edge.from, edge.to));
         let mut transitions = DMatrix::zeros(n, n);
         let (mut log_beta, mut ahead, mut shifted, mut sums) = (vec![0.0; n], vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         let samples = gamma.len() / n;
@@ -55,12 +57,12 @@ impl Chain {
             }
             let shift = exponentials(&ahead, &mut shifted);
             for i in 0..n {
-                (log_beta[i], sums[i]) = log_weighted_sum(&self.out_of[i], &shifted, shift, &ahead);
+                (log_beta[i], sums[i]) = log_weighted_sum(&out_of[i], &shifted, shift, &ahead);
                 row[i] += log_beta[i];
             }
             softmax_in_place(row);
             for i in (0..n).filter(|i| row[*i] > 0.0) {
-                for (j, a) in &self.out_of[i] {
+                for (j, a) in &out_of[i] {
                     let safe = sums[i] > SMALLEST_SAFE_SUM;
                     let share = if safe { a * shifted[*j] / sums[i] } else { (a.ln() + ahead[*j] - log_beta[i]).exp() };
                     transitions[(i, *j)] += row[i] * share;
@@ -68,6 +70,16 @@ impl Chain {
             }
         }
         (gamma, transitions)
+    }
+
+    /// Per state, the states at the other end of its transitions with their probabilities; `ends` says which end is whose.
+    fn neighbours(&self, ends: fn(&Edge) -> (usize, usize)) -> Vec<Vec<(usize, f64)>> {
+        let mut lists = vec![Vec::new(); self.initial.len()];
+        for edge in &self.edges {
+            let (of, other) = ends(edge);
+            lists[of].push((other, edge.probability));
+        }
+        lists
     }
 }
 

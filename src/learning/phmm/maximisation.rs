@@ -57,8 +57,7 @@ pub fn maximise_state(
 ) -> Option<(DMatrix<f64>, DVector<f64>, DMatrix<f64>)> {
     let moments = Moments::of(groups, thetas)?;
     let ridge = penalty.ridge / moments.count;
-    let covariance_for =
-        |w: &DMatrix<f64>| clamp_eigenvalues(&(moments.residual_covariance(w) + ridge * w * w.transpose()), penalty.floor);
+    let covariance_for = |w: &DMatrix<f64>| clamp_eigenvalues(&(moments.residual_covariance(w) + ridge * w * w.transpose()), penalty.floor);
     let mut weights = if penalty.parametric { moments.weights(present.0, None, ridge, penalty) } else { present.0.clone() };
     let (mut covariance, floored) = covariance_for(&weights);
     if floored && penalty.parametric && !penalty.weights_on_phase {
@@ -94,14 +93,8 @@ impl Moments {
             mean += &group.mean * (group.count / count);
             theta_mean += *theta * (group.count / count);
         }
-        let mut moments = Self {
-            count,
-            xx: DMatrix::zeros(d, d),
-            x_theta: DMatrix::zeros(d, p),
-            theta_theta: DMatrix::zeros(p, p),
-            mean,
-            theta_mean,
-        };
+        let mut moments =
+            Self { count, xx: DMatrix::zeros(d, d), x_theta: DMatrix::zeros(d, p), theta_theta: DMatrix::zeros(p, p), mean, theta_mean };
         for (group, theta) in groups.iter().zip(thetas) {
             let share = group.count / count;
             let (x, theta) = (&group.mean - &moments.mean, *theta - &moments.theta_mean);

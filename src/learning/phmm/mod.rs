@@ -13,6 +13,7 @@
 
 mod baum_welch;
 mod emission;
+mod fit;
 mod forward_backward;
 mod kmeans;
 mod log_recursion;
@@ -23,7 +24,8 @@ mod standardisation;
 mod starts;
 mod statistics;
 
-pub use baum_welch::{Fit, FitStatus, StartReport, fit, refine};
+pub use baum_welch::FitStatus;
+pub use fit::{Fit, StartReport, fit, refine};
 pub use forward_backward::{Expectation, expect};
 pub use kmeans::k_means;
 pub use maximisation::{Penalty, maximise_state};

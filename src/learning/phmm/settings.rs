@@ -37,8 +37,8 @@ pub struct PhmmSettings {
     /// Strength of the prior `W = 0` (-, 0 to 1e6), as a number of demonstrations with standardised parameters. Default 0.1: the
     /// best of leave-one-out on hand-made demonstrations, and about 1 % of shrinkage for nine.
     pub ridge: f64,
-    /// Smallest eigenvalue of a covariance whose columns are scaled to unit variance (-, 1e-12 to 0.1). Default 1e-5: 0.3 % of a
-    /// column's standard deviation, well below what people repeat.
+    /// Smallest eigenvalue of a covariance whose columns are scaled to unit variance (-, 1e-8 to 0.1). Default 1e-5: 0.3 % of a
+    /// column's standard deviation, well below what people repeat. Below 1e-6 rounding alone moves the likelihood by more than 1e-9.
     pub covariance_floor: f64,
     /// Starts by k-means (0 to 1000), beside the two by time slices. Default 4.
     pub kmeans_starts: u64,
@@ -73,7 +73,7 @@ impl PhmmSettings {
         };
         check("states", self.states as f64, 1.0, 200.0, "");
         check("ridge", self.ridge, 0.0, 1e6, "demonstrations");
-        check("covariance_floor", self.covariance_floor, 1e-12, 0.1, "");
+        check("covariance_floor", self.covariance_floor, 1e-8, 0.1, "");
         check("kmeans_starts", self.kmeans_starts as f64, 0.0, 1000.0, "");
         check("max_iterations", self.max_iterations as f64, 1.0, 1e5, "");
         check("tolerance", self.tolerance, 0.0, 1.0, "");

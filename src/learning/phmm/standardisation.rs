@@ -76,10 +76,11 @@ impl Standardisation {
     }
 }
 
+/// Mean and standard deviation; the first value and 1 when the values are constant, so that equal values become exactly zero.
 fn mean_and_spread(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let n = values.clone().count().max(1) as f64;
     let mean = values.clone().sum::<f64>() / n;
     let spread = (values.clone().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
-    let largest = values.fold(0.0, |m: f64, x| m.max(x.abs()));
-    (mean, if spread > CONSTANT * largest { spread } else { 1.0 })
+    let largest = values.clone().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if spread > CONSTANT * largest { (mean, spread) } else { (values.into_iter().next().unwrap_or(mean), 1.0) }
 }

@@ -25,7 +25,12 @@ impl Properties {
 }
 
 /// Sends `blueprint` with the properties of its views, to be shown at once.
-pub(super) fn send(stream: &RecordingStream, application: &'static str, blueprint: &Blueprint, properties: &Properties) -> Result<(), Fault> {
+pub(super) fn send(
+    stream: &RecordingStream,
+    application: &'static str,
+    blueprint: &Blueprint,
+    properties: &Properties,
+) -> Result<(), Fault> {
     let (built, storage) = RecordingStreamBuilder::new(application).send_properties(false).memory()?;
     blueprint.send(&built, BlueprintActivation::default())?;
     built.flush_blocking()?;

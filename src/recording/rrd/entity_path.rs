@@ -16,7 +16,8 @@ pub const SIM_TIME: Timeline = Timeline { name: "sim_time", meaning: "simulated 
 /// Engine steps.
 pub const STEP: Timeline = Timeline { name: "step", meaning: "number of the engine step since the start of the execution" };
 /// Phase.
-pub const PHASE: Timeline = Timeline { name: "phase", meaning: "elapsed fraction u = -ln(s)/alpha of the skill's duration, in ten-thousandths" };
+pub const PHASE: Timeline =
+    Timeline { name: "phase", meaning: "elapsed fraction u = -ln(s)/alpha of the skill's duration, in ten-thousandths" };
 
 /// All timelines.
 pub const TIMELINES: [Timeline; 3] = [SIM_TIME, STEP, PHASE];
@@ -54,6 +55,7 @@ macro_rules! entities {
     };
 }
 
+// Plots draw in the order of the paths: what matters most comes last.
 entities! {
     WORLD "world" "the scene in the robot's base frame: x forward, y left, z up (m)"
     ROBOT_BODY "world/robot/{body}" "pose of a robot body in the world, at every logged step if it ever moves"
@@ -64,16 +66,17 @@ entities! {
     PLANNED_PATH "world/paths/planned" "path that the skill generates for this setting without any force"
     EXECUTED_PATH "world/paths/executed" "path of the tool: at each step the piece since the step before; the view keeps them all"
     TOOL "world/tool" "pose of the tool frame (grasp centre) at every logged step"
-    STATES "world/states" "Gaussians of the motion model's states in task space at two standard deviations, coloured by beta"
-    ACTIVE_STATE "world/active_state" "the Gaussian of the state that is active"
+    STATES "world/states" "how far the demonstrations disagree in each state of the motion model, at two standard deviations, coloured by beta"
+    ACTIVE_STATE "world/active_state" "the same of the state that is active"
+    ACTIVE_LABEL "world/active_state/label" "its number, and whether it complies"
     WRENCH_ARROW "world/forces/measured" "force of the environment on the tool as the controller estimates it"
     EXPECTED_ARROW "world/forces/expected" "force that the force model expects"
-    PERSON_ARROW "world/forces/person" "force of the person on the arm, where it acts"
-    TAUGHT_MOTION "plots/motion/{axis}/taught/{demonstration}" "taught coordinate of the tool, its duration stretched to the skill's (m)"
-    PLANNED_MOTION "plots/motion/{axis}/planned" "generated coordinate of the tool (m)"
-    EXECUTED_MOTION "plots/motion/{axis}/executed" "coordinate of the tool (m)"
-    STATE_UPPER "plots/motion/{axis}/states/{state}/upper" "upper half of a state's ellipse over time at two standard deviations (m)"
-    STATE_LOWER "plots/motion/{axis}/states/{state}/lower" "lower half of the same ellipse (m)"
+    PERSON_ARROW "world/forces/person" "force of the person on the arm, as an arrow that starts at the arm's surface"
+    TAUGHT_MOTION "plots/motion/{axis}/demonstrated/{demonstration}" "taught coordinate of the tool, its duration stretched to the skill's (m)"
+    STATE_UPPER "plots/motion/{axis}/gaussians/{state}/upper" "upper half of the same as an ellipse over time, along the planned coordinate (m)"
+    STATE_LOWER "plots/motion/{axis}/gaussians/{state}/lower" "its lower half (m)"
+    PLANNED_MOTION "plots/motion/{axis}/planned" "coordinate of the tool that the skill generates (m)"
+    EXECUTED_MOTION "plots/motion/{axis}/tool" "coordinate of the tool as executed (m)"
     WRENCH "plots/force/{axis}/measured" "measured force on the tool along an axis (N)"
     EXPECTED "plots/force/{axis}/expected" "expected force (N)"
     PERSON "plots/force/{axis}/person" "force of the person (N)"
@@ -86,7 +89,7 @@ entities! {
     COMPLIANCE_LANE "lanes/compliance" "whether the arm is stiff or complies"
     STATE_LANE "lanes/state" "the active state"
     GRIPPER_LANE "lanes/gripper" "whether the gripper is told to be open or closed"
-    PERSON_LANE "lanes/person" "whether the person pushes"
+    PERSON_LANE "lanes/person" "whether the person holds the arm"
     EVENTS "events" "what happens, in words"
     GUIDE "guide" "how to read this recording"
 }

@@ -1,7 +1,7 @@
 //! What happened, in words: one line per event, in the order of time.
 
 use super::entity_path::EVENTS;
-use super::lanes::{CLOSED, PUSH_N, beta_in_words};
+use super::lanes::{CLOSED, beta_in_words, holds};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{RunOutcome, StepRecord};
 
@@ -45,8 +45,8 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
     for pair in records.windows(2) {
         let (before, now) = (&pair[0], &pair[1]);
         events.extend(changes(before, now).into_iter().map(|text| note(now.time_s, text)));
-        if pushes(before) && !pushes(now) {
-            events.push(note(now.time_s, format!("the person lets go (peak {:.1} N)", peak_of_push(records, before.step))));
+        if holds(before) && !holds(now) {
+            events.push(note(now.time_s, format!("the person lets go (peak {:.1} N)", peak_of_hold(records, before.step))));
         }
     }
     for clearance in outcome.clearances.iter().filter(|c| c.min_distance_m.is_finite()) {
@@ -54,7 +54,8 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
         events.push(note(clearance.time_s, text));
     }
     for contact in outcome.collisions.iter().filter(|contact| !contact.allowed) {
-        let text = format!("{} touches {}: up to {:.1} N, {:.1} mm deep", contact.a, contact.b, contact.max_force_n, contact.max_depth_m * 1e3);
+        let text =
+            format!("{} touches {}: up to {:.1} N, {:.1} mm deep", contact.a, contact.b, contact.max_force_n, contact.max_depth_m * 1e3);
         events.push(Event { time_s: contact.first_time_s, kind: Kind::Fault, text });
     }
     events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
@@ -76,7 +77,7 @@ fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
         (true, false) => texts.push("the gripper opens".into()),
         _ => {}
     }
-    if pushes(now) && !pushes(before) {
+    if holds(now) && !holds(before) {
         texts.push("the person takes hold".into());
     }
     if before.time_fraction < 1.0 && now.time_fraction >= 1.0 {
@@ -85,12 +86,8 @@ fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
     texts
 }
 
-fn pushes(record: &StepRecord) -> bool {
-    record.human.force.norm() > PUSH_N
-}
-
-/// The largest force of the push that ended at `step` (N).
-fn peak_of_push(records: &[StepRecord], step: u64) -> f64 {
+/// The largest force of the hold that ended at `step` (N).
+fn peak_of_hold(records: &[StepRecord], step: u64) -> f64 {
     let until = records.iter().rev().skip_while(|record| record.step > step);
-    until.take_while(|record| pushes(record)).map(|record| record.human.force.norm()).fold(0.0, f64::max)
+    until.take_while(|record| holds(record)).map(|record| record.human.force.norm()).fold(0.0, f64::max)
 }

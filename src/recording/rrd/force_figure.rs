@@ -5,15 +5,19 @@ use rerun::{Arrows3D, Color, EntityPath, Scalars};
 
 use super::convert;
 use super::entity_path::{
-    ACTIVATION, BETA, COUPLING, EXPECTED, EXPECTED_ARROW, Entity, GRIPPER_COMMAND, GRIPPER_OPENING, PERSON, PERSON_ARROW, TORQUE, WRENCH, WRENCH_ARROW,
+    ACTIVATION, BETA, COUPLING, EXPECTED, EXPECTED_ARROW, Entity, GRIPPER_COMMAND, GRIPPER_OPENING, PERSON, PERSON_ARROW, TORQUE, WRENCH,
+    WRENCH_ARROW,
 };
 use super::palette;
 use super::paths::{AXES, style};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::StepRecord;
 
-/// Length of an arrow per newton (m/N): 15 N, the most that a helping person pushes with, are 18 cm.
-const ARROW_M_PER_N: f64 = 0.012;
+/// Length of an arrow per newton (m/N): 15 N, the most that a helping person pushes with, are 30 cm.
+const ARROW_M_PER_N: f64 = 0.02;
+
+/// The person's arrow starts this far from the point where the force acts (m): at the surface of the arm, in which it could not be seen.
+const ARM_RADIUS_M: f64 = 0.07;
 
 /// Forces below this are not drawn as arrows (N).
 const SMALLEST_ARROW_N: f64 = 0.25;
@@ -28,7 +32,7 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord]) -> Result<
     let arrows = Arrows { recorder, records };
     arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (tool(r), measured(r)))?;
     arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r), r.expected_force))?;
-    arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point, r.human.force))?;
+    arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point + to_surface(&r.human.force), r.human.force))?;
     let plot = Plot { recorder, records };
     for (i, axis) in AXES.iter().enumerate() {
         plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;
@@ -41,6 +45,11 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord]) -> Result<
     plot.log(ACTIVATION.path(), "activation", palette::EXECUTED, |r| r.activation)?;
     plot.log(GRIPPER_COMMAND.path(), "commanded", palette::PLANNED, |r| r.gripper_command)?;
     plot.log(GRIPPER_OPENING.path(), "measured", palette::EXECUTED, |r| r.gripper_opening)
+}
+
+/// From the point where a force acts to the surface of the arm, in the direction of the force (m).
+fn to_surface(force: &Vector3<f64>) -> Vector3<f64> {
+    force.try_normalize(0.0).unwrap_or_default() * ARM_RADIUS_M
 }
 
 struct Plot<'a> {

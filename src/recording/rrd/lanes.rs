@@ -5,10 +5,12 @@ use rerun::{Color, StateChange, StateConfiguration};
 use super::entity_path::{COMPLIANCE_LANE, Entity, GRIPPER_LANE, PERSON_LANE, STATE_LANE};
 use super::palette;
 use super::recorder::{Fault, Recorder};
-use crate::simulation::StepRecord;
+use crate::simulation::{AppliedForce, StepRecord};
 
-/// A person's force above this counts as a push (N).
-pub(super) const PUSH_N: f64 = 0.5;
+/// Whether the person holds the arm.
+pub(super) fn holds(record: &StepRecord) -> bool {
+    record.human != AppliedForce::default()
+}
 
 /// An opening below this counts as closed, commanded or measured (0 … 1).
 pub(super) const CLOSED: f64 = 0.5;
@@ -52,13 +54,12 @@ pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord]) -> Result<(
         recorder.always(entity.path(), &configuration)?;
         recorder.at_times(entity.path(), &times, StateChange::new().with_state(values).columns_of_unit_batches()?)
     };
-    let pushes = |r: &StepRecord| r.human.force.norm() > PUSH_N;
     let closed = |r: &StepRecord| r.gripper_command < CLOSED;
     let pick = |yes: bool, on: &str, off: &str| if yes { on.to_owned() } else { off.to_owned() };
     let tint = |yes: bool, on: Color| if yes { on } else { palette::IDLE };
     lane(&COMPLIANCE_LANE, &|r| beta_in_words(r.beta).to_owned(), &|r| beta_color(r.beta))?;
     lane(&STATE_LANE, &|r| r.state.to_string(), &|r| shade(beta_color(r.beta), r.state))?;
-    lane(&PERSON_LANE, &|r| pick(pushes(r), "pushes", "hands off"), &|r| tint(pushes(r), palette::PERSON))?;
+    lane(&PERSON_LANE, &|r| pick(holds(r), "holds", "hands off"), &|r| tint(holds(r), palette::PERSON))?;
     lane(&GRIPPER_LANE, &|r| pick(closed(r), "closed", "open"), &|r| tint(closed(r), palette::EXECUTED))
 }
 

@@ -3,40 +3,50 @@
 use nalgebra::Vector3;
 use rerun::blueprint::components::{BackgroundKind, Corner2D, LinkAxis, PanelState, PlayState};
 use rerun::blueprint::{
-    Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, StateTimelineView, Tabs, TextDocumentView, TextLogView,
-    TimePanel, TimeSeriesView, Vertical, View,
+    Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, StateTimelineView, Tabs, TextDocumentView,
+    TextLogView, TimePanel, TimeSeriesView, Vertical, View,
 };
 use rerun::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
-use rerun::external::re_sdk_types::blueprint::archetypes::{Background, EyeControls3D, LineGrid3D, PlotLegend, TimeAxis, VisibleTimeRanges};
+use rerun::external::re_sdk_types::blueprint::archetypes::{
+    Background, EyeControls3D, LineGrid3D, PlotLegend, TextLogColumns, TimeAxis, VisibleTimeRanges,
+};
+use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
 
 use super::blueprint_property::Properties;
 use super::convert;
-use super::entity_path::{EXECUTED_PATH, SIM_TIME};
+use super::entity_path::{EXECUTED_PATH, SIM_TIME, TIMELINES};
+use super::palette;
 use super::recorder::Fault;
 
-/// Where the camera stands, as seen from what it looks at (m): in front of the robot, at its left, above the table.
-const EYE_FROM_TARGET_M: Vector3<f64> = Vector3::new(1.15, 0.95, 0.75);
+/// From the middle of the way of the tool to what the camera looks at (m): between the work and the robot, so that both are seen.
+const TARGET_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(-0.2, -0.01, 0.14);
 
-/// The layout with the properties of its views. The camera looks at `target` (m, world); the floor is at `floor_m`.
-pub(super) fn layout(target: Vector3<f64>, floor_m: f64) -> Result<(Blueprint, Properties), Fault> {
+/// From there to the camera (m): in front of the robot, at its left, above the table.
+const EYE_FROM_TARGET_M: Vector3<f64> = Vector3::new(1.10, 0.69, 0.32);
+
+/// Titles stand where a legend cannot cover anything.
+const SCENE_TITLE: &str = "Scene: taught grey, planned blue, executed orange; states stiff green, complying purple; person red";
+
+/// The layout with the properties of its views. `middle` is that of the way of the tool, `floor_m` the height of the floor (m, world).
+pub(super) fn layout(middle: Vector3<f64>, floor_m: f64) -> Result<(Blueprint, Properties), Fault> {
     let mut views = Views::default();
-    let scene = views.scene(target, floor_m)?;
-    let lateral = views.plot("Lateral motion x (m)", "plots/motion/x", Corner2D::LeftTop)?;
-    let vertical = views.plot("Vertical motion z (m)", "plots/motion/z", Corner2D::LeftTop)?;
+    let scene = views.scene(middle + TARGET_FROM_MIDDLE_M, floor_m)?;
+    let lateral = views.plot("Lateral motion x (m): taught grey, planned blue, executed orange", "plots/motion/x", None)?;
+    let vertical = views.plot("Vertical motion z (m): taught grey, planned blue, executed orange", "plots/motion/z", None)?;
     let more = [
-        views.plot("Force x (N)", "plots/force/x", Corner2D::LeftTop)?,
-        views.plot("Force y (N)", "plots/force/y", Corner2D::LeftTop)?,
-        views.plot("Force z (N)", "plots/force/z", Corner2D::LeftTop)?,
-        views.plot("Coupling (m)", "plots/coupling", Corner2D::LeftTop)?,
-        views.plot("Gripper", "plots/gripper", Corner2D::LeftTop)?,
-        views.plot("Motion y (m)", "plots/motion/y", Corner2D::LeftTop)?,
+        views.plot("Force x (N)", "plots/force/x", Some(Corner2D::RightTop))?,
+        views.plot("Force y (N)", "plots/force/y", Some(Corner2D::RightTop))?,
+        views.plot("Force z (N)", "plots/force/z", Some(Corner2D::RightTop))?,
+        views.plot("Coupling (m)", "plots/coupling", Some(Corner2D::RightTop))?,
+        views.plot("Gripper", "plots/gripper", Some(Corner2D::LeftBottom))?,
+        views.plot("Motion y (m)", "plots/motion/y", None)?,
     ];
-    let lanes = StateTimelineView::new("Compliance, state, person, gripper").with_origin("/lanes").into();
-    let words = [TextLogView::new("Events").with_origin("/events").into(), TextDocumentView::new("How to read").with_origin("/guide").into()];
-    let right: [ContainerLike; 5] =
-        [lateral.into(), vertical.into(), Tabs::new(more.map(ContainerLike::from)).into(), lanes, Tabs::new(words).into()];
-    let right = Vertical::new(right).with_row_shares(vec![1.2, 1.2, 1.1, 1.1, 0.8]);
-    let blueprint = Blueprint::new(Horizontal::new([scene.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
+    let lanes = StateTimelineView::new("Compliance, gripper, person, state").with_origin("/lanes");
+    let words = Tabs::new([views.events()?.into(), TextDocumentView::new("How to read").with_origin("/guide").into()]);
+    let left = Vertical::new([scene.into(), words.into()]).with_row_shares(vec![5.0, 1.0]);
+    let right: [ContainerLike; 4] = [lateral.into(), vertical.into(), Tabs::new(more.map(ContainerLike::from)).into(), lanes.into()];
+    let right = Vertical::new(right).with_row_shares(vec![1.2, 1.2, 1.0, 1.25]);
+    let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
         .with_time_panel(
@@ -53,25 +63,35 @@ struct Views {
 
 impl Views {
     fn scene(&mut self, target: Vector3<f64>, floor_m: f64) -> Result<View, Fault> {
-        let view = view(Spatial3DView::new("Scene: taught grey, planned blue, executed orange").with_origin("/world"))?;
+        let view = view(Spatial3DView::new(SCENE_TITLE).with_origin("/world"))?;
         let eye = EyeControls3D::new()
             .with_position(convert::vector(&(target + EYE_FROM_TARGET_M)))
             .with_look_target(convert::vector(&target))
             .with_eye_up([0.0, 0.0, 1.0]);
         self.properties.set(&view, "EyeControls3D", eye);
-        self.properties.set(&view, "Background", Background::new(BackgroundKind::GradientDark));
+        self.properties.set(&view, "Background", Background::new(BackgroundKind::SolidColor).with_color(palette::BACKGROUND));
         let floor = rerun::components::Plane3D::new([0.0, 0.0, 1.0], floor_m as f32);
         self.properties.set(&view, "LineGrid3D", LineGrid3D::new().with_spacing(0.25).with_plane(floor));
-        let start = TimeRange { start: TimeRangeBoundary::Infinite, end: TimeRangeBoundary::AT_CURSOR };
-        let until_now = VisibleTimeRanges::new([VisibleTimeRange { timeline: SIM_TIME.name.into(), range: start }]);
-        self.properties.set_for_entity(&view, &EXECUTED_PATH.path(), until_now);
+        let until_now = TimeRange { start: TimeRangeBoundary::Infinite, end: TimeRangeBoundary::AT_CURSOR };
+        let ranges = TIMELINES.map(|timeline| VisibleTimeRange { timeline: timeline.name.into(), range: until_now.clone() });
+        self.properties.set_for_entity(&view, &EXECUTED_PATH.path(), VisibleTimeRanges::new(ranges));
         Ok(view)
     }
 
-    fn plot(&mut self, name: &str, origin: &str, legend: Corner2D) -> Result<View, Fault> {
+    /// A plot over time, linked with all others. A legend stands over the data: those that are full of it name their colours in the title.
+    fn plot(&mut self, name: &str, origin: &str, legend: Option<Corner2D>) -> Result<View, Fault> {
         let view = view(TimeSeriesView::new(name).with_origin(origin))?;
-        self.properties.set(&view, "PlotLegend", PlotLegend::new().with_corner(legend));
+        let legend = legend.map_or_else(|| PlotLegend::new().with_visible(false), |corner| PlotLegend::new().with_corner(corner));
+        self.properties.set(&view, "PlotLegend", legend);
         self.properties.set(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
+        Ok(view)
+    }
+
+    fn events(&mut self) -> Result<View, Fault> {
+        let view = view(TextLogView::new("Events").with_origin("/events"))?;
+        let column = |kind| TextLogColumn { kind, visible: true.into() };
+        let columns = TextLogColumns::new().with_text_log_columns([column(TextLogColumnKind::LogLevel), column(TextLogColumnKind::Body)]);
+        self.properties.set(&view, "TextLogColumns", columns);
         Ok(view)
     }
 }

@@ -14,6 +14,7 @@ mod recorder;
 mod robot_figure;
 mod scene_figure;
 mod state_figure;
+mod task_states;
 mod write;
 
 pub use write::write_recording;

@@ -26,3 +26,5 @@ pub(super) const EXPECTED: Color = rgb(240, 228, 66);
 pub(super) const PERSON: Color = rgb(213, 94, 0);
 /// Nothing of interest.
 pub(super) const IDLE: Color = rgb(70, 74, 82);
+/// Behind the scene.
+pub(super) const BACKGROUND: Color = rgb(74, 82, 94);

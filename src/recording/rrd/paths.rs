@@ -13,6 +13,9 @@ use crate::simulation::{RunOutcome, StepRecord};
 /// The axes of the world, as they name entities.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// The columns that hold coordinates of the tool.
+pub(super) const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
+
 /// Samples of a taught or planned path that are drawn: a piece of 0.1 s of a movement of 28 s.
 const DRAWN_SAMPLES: usize = 280;
 
@@ -68,7 +71,7 @@ fn strip(points: Vec<[f32; 3]>, color: Color, radius_m: f32) -> LineStrips3D {
 /// A thinned trajectory, its time stretched to a duration.
 struct Path {
     times_s: Vec<f64>,
-    /// The columns `x_m`, `y_m`, `z_m` that it has.
+    /// The coordinates that it has.
     columns: [Option<DVector<f64>>; 3],
 }
 
@@ -80,7 +83,7 @@ impl Path {
         let times = trajectory.times_s();
         let stretch = duration_s / trajectory.duration_s();
         let column = |name| trajectory.column(name).map(|values| DVector::from_iterator(kept.len(), kept.iter().map(|i| values[*i])));
-        Self { times_s: kept.iter().map(|i| (times[*i] - times[0]) * stretch).collect(), columns: ["x_m", "y_m", "z_m"].map(column) }
+        Self { times_s: kept.iter().map(|i| (times[*i] - times[0]) * stretch).collect(), columns: COLUMNS.map(column) }
     }
 
     /// The places, when all three coordinates are there.

@@ -38,11 +38,6 @@ impl Recorder {
         Self { stream, steps, step_s, duration_s }
     }
 
-    /// The stream, for what is sent in another way.
-    pub(super) fn stream(&self) -> &RecordingStream {
-        &self.stream
-    }
-
     /// Logs what holds at all times.
     pub(super) fn always(&self, entity: impl Into<EntityPath>, what: &dyn AsComponents) -> Result<(), Fault> {
         Ok(self.stream.log_static(entity, what)?)

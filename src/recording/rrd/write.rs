@@ -34,7 +34,8 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     let identity = format!("{}-{}-{:016x}", experiment.name, experiment.seed, outcome.state_hash);
     let stream = RecordingStreamBuilder::new(APPLICATION).recording_id(identity).save(path)?;
     stream.send_recording_name(name)?;
-    let (blueprint, properties) = layout::layout(middle(outcome), floor_m(&outcome.robot))?;
+    let middle = middle(outcome);
+    let (blueprint, properties) = layout::layout(middle, floor_m(&outcome.robot))?;
     blueprint_property::send(&stream, APPLICATION, &blueprint, &properties)?;
 
     let duration_s = duration_s(outcome);
@@ -43,7 +44,7 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     robot_figure::log_robot(&recorder, &outcome.robot, &outcome.steps)?;
     scene_figure::log_objects(&recorder, experiment, &outcome.steps)?;
     paths::log_paths(&recorder, outcome, duration_s)?;
-    state_figure::log_states(&recorder, experiment, outcome, duration_s)?;
+    state_figure::log_states(&recorder, experiment, outcome, duration_s, middle)?;
     force_figure::log_forces(&recorder, &outcome.steps)?;
     lanes::log_lanes(&recorder, &outcome.steps)?;
     events::log_events(&recorder, outcome)?;

@@ -1,49 +1,10 @@
-//! A learned skill: everything needed to move, for any parameter, start, goal and duration.
+//! Whether the parts of a skill fit together and hold usable numbers.
 
-use nalgebra::DVector;
-
-use super::cpdmp::{Compliance, ComplianceWindow, ForceModel, MotionModel, compliance_windows, segments};
-use super::{GripperProfile, LearningError, OrientationProfile};
-
-/// A learned compliant parametric dynamic movement primitive.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Skill {
-    /// The movement.
-    pub motion: MotionModel,
-    /// The wrench expected along it, when demonstrations had one.
-    pub force: Option<ForceModel>,
-    /// Which of the motion model's states comply.
-    pub compliance: Compliance,
-    /// The orientation along the movement, when demonstrations had one.
-    pub orientation: Option<OrientationProfile>,
-    /// The gripper along the movement, when demonstrations had one.
-    pub gripper: Option<GripperProfile>,
-    /// Where the skill comes from: free text by key, sorted.
-    pub provenance: Vec<(String, String)>,
-    /// Log-likelihood (with log prior) per iteration of the models that were fitted, by name: `motion`, `force`.
-    pub histories: Vec<(String, Vec<f64>)>,
-}
+use super::Skill;
+use crate::learning::LearningError;
+use crate::learning::cpdmp::Shaping;
 
 impl Skill {
-    /// The windows in which the movement yields, as time fractions, for parameters `theta_m`.
-    ///
-    /// # Errors
-    /// When parameters are missing or unknown.
-    pub fn compliance_windows(&self, theta_m: &[(String, f64)]) -> Result<Vec<ComplianceWindow>, LearningError> {
-        let theta = self.motion.parameters.resolve(theta_m)?;
-        let mut shaping = self.motion.shaping_at(&theta)?;
-        Ok(compliance_windows(&segments(&mut shaping), &self.compliance.beta))
-    }
-
-    /// How far parameters lie outside what was demonstrated, as a fraction of its range (-); see
-    /// [`super::ParameterSpace::extrapolation`].
-    ///
-    /// # Errors
-    /// When parameters are missing or unknown.
-    pub fn extrapolation(&self, theta_m: &[(String, f64)]) -> Result<f64, LearningError> {
-        Ok(self.motion.parameters.extrapolation(&self.motion.parameters.resolve(theta_m)?))
-    }
-
     /// Checks that all parts fit together and hold usable numbers.
     ///
     /// # Errors
@@ -85,13 +46,13 @@ impl Skill {
     fn check_shaping(&self, d: usize, p: usize) -> Result<(), LearningError> {
         let wrong = |what: String| Err(LearningError::Skill(what));
         match &self.motion.shaping {
-            super::cpdmp::Shaping::Phmm(phmm) => {
+            Shaping::Phmm(phmm) => {
                 phmm.check()?;
                 if (phmm.dimension(), phmm.parameters()) != (d + 1, p) {
                     return wrong(format!("motion.phmm is not over the phase, {d} columns and {p} parameters"));
                 }
             }
-            super::cpdmp::Shaping::Lwr(lwr) => {
+            Shaping::Lwr(lwr) => {
                 let m = lwr.centres.len();
                 let numbers = lwr.centres.iter().chain(lwr.widths.iter()).chain(lwr.weights.iter());
                 if m == 0 || lwr.widths.len() != m || lwr.weights.shape() != (m, d) || !finite(numbers) {
@@ -129,12 +90,6 @@ impl Skill {
             return wrong("gripper is not a list of at least two finite openings");
         }
         Ok(())
-    }
-
-    /// The start `x0` and goal `g` (d each) at `theta` (p).
-    #[must_use]
-    pub fn ends_at(&self, theta: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
-        (self.motion.start.at(theta), self.motion.goal.at(theta))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a skill is asked to do.
 
-use super::cpdmp::CouplingSettings;
+use crate::learning::cpdmp::CouplingSettings;
 
 /// One execution of a skill. By default as demonstrated: start, goal and duration from the model, no coupling.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -11,49 +11,13 @@
 //! waits for somebody keeps its path; `e` stays in real time, so the hand remains as soft as it was. Both are solved exactly over a
 //! step, with `x_eq` taken at its middle.
 
-use nalgebra::{DVector, UnitQuaternion};
+use nalgebra::DVector;
 
-use super::cpdmp::{ComplianceWindow, CouplingSettings, ForceCoupling, ShapingFunction, Switching, compliance_windows, segments};
-use super::dmp::{CanonicalSystem, Motion, PhaseInput, TransformationSystem};
-use super::{ExecutionSettings, Gmr, GripperProfile, LearningError, OrientationProfile, Skill};
-use crate::math::smooth_step;
-
-/// Where a skill is. Motion, phase, orientation and gripper at the end of the step; what decided about forces as it was during it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SkillState {
-    /// Time since the start (s).
-    pub time_s: f64,
-    /// Phase `s` (-), from 1 towards 0.
-    pub phase: f64,
-    /// Time fraction `u = -ln(s) / alpha` (-), 1 when the movement should be over.
-    pub u: f64,
-    /// Position (d; unit of the motion columns).
-    pub position: DVector<f64>,
-    /// Velocity (d; unit / s).
-    pub velocity: DVector<f64>,
-    /// Acceleration (d; unit / s^2).
-    pub acceleration: DVector<f64>,
-    /// How far forces have moved the position from the undisturbed movement (d; unit of the columns).
-    pub deviation: DVector<f64>,
-    /// Orientation, when the skill has one.
-    pub orientation: Option<UnitQuaternion<f64>>,
-    /// Opening of the gripper (0 closed, 1 open), when the skill has one.
-    pub gripper: Option<f64>,
-    /// The most responsible state of the motion model; 0 for the baseline.
-    pub state: usize,
-    /// `beta` of that state: -1 complies, 0 is stiff.
-    pub beta: f64,
-    /// `b` (-, 0 to 1): how far the coupling is switched on.
-    pub activation: f64,
-    /// `zeta` (d; unit of the columns times `K`): `zeta / K` is the displacement that the forces ask for, after saturation.
-    pub zeta: DVector<f64>,
-    /// `F_des(theta_f, s)` (w; unit of the wrench columns); zero without a force model.
-    pub expected_wrench: DVector<f64>,
-    /// The net forcing `b (f - (g - x0) s)` (d; unit of the columns): where the spring is pulled to, seen from the goal.
-    pub forcing: DVector<f64>,
-    /// Whether the last wrench had the right length and was finite. What is not finite does not act.
-    pub wrench_valid: bool,
-}
+use super::coupling::{Coupling, ExpectedWrench, wrench_columns};
+use super::{ExecutionSettings, SkillState};
+use crate::learning::cpdmp::{ComplianceWindow, ShapingFunction, compliance_windows, segments};
+use crate::learning::dmp::{CanonicalSystem, Motion, TransformationSystem};
+use crate::learning::{GripperProfile, LearningError, OrientationProfile, Skill};
 
 /// A skill being executed.
 #[derive(Debug, Clone)]
@@ -72,23 +36,6 @@ pub struct SkillExecution {
     undisturbed: Vec<Motion>,
     deviation: Vec<Motion>,
     state: SkillState,
-}
-
-#[derive(Debug, Clone)]
-struct ExpectedWrench {
-    gmr: Gmr,
-    input: PhaseInput,
-    weights: Vec<f64>,
-}
-
-#[derive(Debug, Clone)]
-struct Coupling {
-    law: ForceCoupling,
-    beta: Vec<f64>,
-    windows: Vec<ComplianceWindow>,
-    /// Length of the ramps at the windows' edges, as a fraction of the duration; 0 for none.
-    ramp: f64,
-    fade_start: f64,
 }
 
 impl SkillExecution {
@@ -186,7 +133,7 @@ impl SkillExecution {
     /// The windows in which forces act, as time fractions; none when the coupling is off.
     #[must_use]
     pub fn compliance_windows(&self) -> &[ComplianceWindow] {
-        self.coupling.as_ref().map_or(&[], |c| &c.windows)
+        self.coupling.as_ref().map_or(&[], Coupling::windows)
     }
 
     /// The active state, how far it yields, and the wrench expected now.
@@ -195,9 +142,7 @@ impl SkillExecution {
         self.state.state = self.shaping.active_state(u);
         (self.state.beta, self.state.activation) = self.coupling.as_ref().map_or((0.0, 0.0), |c| c.strength(u, self.state.state));
         if let Some(force) = &mut self.force {
-            let x = [force.input.at(u.clamp(0.0, 1.0), self.shaping.alpha())];
-            force.gmr.weights(&x, &mut force.weights);
-            force.gmr.mean_into(&x, &force.weights, self.state.expected_wrench.as_mut_slice());
+            force.at(u, self.shaping.alpha(), self.state.expected_wrench.as_mut_slice());
         }
     }
 
@@ -209,7 +154,7 @@ impl SkillExecution {
         self.state.zeta.fill(0.0);
         if let Some(coupling) = self.coupling.as_ref().filter(|_| complete) {
             let strength = self.state.beta * self.state.activation;
-            coupling.law.displacement(strength, wrench, expected, self.state.zeta.as_mut_slice());
+            coupling.law().displacement(strength, wrench, expected, self.state.zeta.as_mut_slice());
             self.state.zeta *= self.stiffness;
         }
     }
@@ -230,83 +175,6 @@ impl SkillExecution {
         }
         state.orientation = self.orientation.as_ref().map(|o| o.orientation(u));
         state.gripper = self.gripper.as_ref().map(|g| g.opening(u));
-    }
-}
-
-impl SkillState {
-    fn at(position: DVector<f64>, wrench: usize) -> Self {
-        let zero = DVector::zeros(position.len());
-        Self {
-            time_s: 0.0,
-            phase: 1.0,
-            u: 0.0,
-            position,
-            velocity: zero.clone(),
-            acceleration: zero.clone(),
-            deviation: zero.clone(),
-            orientation: None,
-            gripper: None,
-            state: 0,
-            beta: 0.0,
-            activation: 0.0,
-            zeta: zero.clone(),
-            expected_wrench: DVector::zeros(wrench),
-            forcing: zero,
-            wrench_valid: true,
-        }
-    }
-}
-
-impl ExpectedWrench {
-    fn of(skill: &Skill, settings: &ExecutionSettings) -> Result<Option<Self>, LearningError> {
-        let Some(model) = &skill.force else {
-            return match settings.theta_f.first() {
-                Some((name, _)) => Err(LearningError::Request(format!("unknown parameter {name}: the skill has no force model"))),
-                None => Ok(None),
-            };
-        };
-        let gmr = model.regression_at(&model.parameters.resolve(&settings.theta_f)?)?;
-        let weights = vec![0.0; gmr.components()];
-        Ok(Some(Self { gmr, input: model.phase_input, weights }))
-    }
-}
-
-impl Coupling {
-    fn new(settings: &CouplingSettings, skill: &Skill, wrench: &[String], windows: Vec<ComplianceWindow>) -> Result<Self, LearningError> {
-        let ramp = match settings.switching {
-            Switching::Hard => 0.0,
-            // 1 / (omega tau) = 1 / sqrt(K).
-            Switching::Smooth(times) => times / skill.motion.stiffness.sqrt(),
-        };
-        Ok(Self {
-            law: ForceCoupling::new(settings, &skill.motion.columns, wrench)?,
-            beta: skill.compliance.beta.clone(),
-            windows,
-            ramp,
-            fade_start: skill.motion.gate_start,
-        })
-    }
-
-    /// `beta` of the active state and the activation `b` at time fraction `u`. `b` ramps inside the window, so that outside it nothing
-    /// acts, and fades to 0 towards `u = 1`, so that the goal is reached.
-    fn strength(&self, u: f64, state: usize) -> (f64, f64) {
-        let beta = self.beta.get(state).copied().unwrap_or(0.0);
-        let Some(window) = self.windows.iter().find(|w| (w.start..w.end).contains(&u)) else { return (beta, 0.0) };
-        let ramp = self.ramp.min(0.5 * (window.end - window.start));
-        let inside = if ramp > 0.0 {
-            smooth_step(u, window.start, window.start + ramp) * smooth_step(u, window.end, window.end - ramp)
-        } else {
-            1.0
-        };
-        (beta, inside * smooth_step(u, 1.0, self.fade_start))
-    }
-}
-
-/// The columns of the wrench that a skill takes.
-fn wrench_columns(skill: &Skill) -> Vec<String> {
-    match &skill.force {
-        Some(force) => force.columns.clone(),
-        None => skill.motion.columns.iter().map(|c| c.strip_suffix("_m").map_or_else(|| c.clone(), |name| format!("f{name}_n"))).collect(),
     }
 }
 

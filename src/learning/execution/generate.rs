@@ -2,9 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::cpdmp::{CouplingSettings, segments};
-use super::{ExecutionSettings, LearningError, Skill, SkillExecution};
+use super::{ExecutionSettings, SkillExecution};
 use crate::demonstration::{GRIPPER_COLUMN, QUATERNION_COLUMNS, Trajectory};
+use crate::learning::cpdmp::{CouplingSettings, segments};
+use crate::learning::{LearningError, Skill};
 
 /// The most samples one generated trajectory may have.
 const MOST_SAMPLES: f64 = 1e7;

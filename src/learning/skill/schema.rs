@@ -1,0 +1,153 @@
+//! The layout of a skill file, and its way to and from a [`Skill`]. Keys are an interface: add, do not rename.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::Skill;
+use super::schema_parts::{ComplianceFile, GripperFile, LwrFile, MapFile, OrientationFile, PhmmFile};
+use crate::learning::cpdmp::{Compliance, ForceModel, MotionModel, Shaping};
+use crate::learning::dmp::PhaseInput;
+use crate::learning::{GripperProfile, LearningError, ParameterSpace};
+
+/// What a file calls itself.
+pub(super) const FORMAT: &str = "cpdmp-skill";
+/// The version this program reads and writes.
+pub(super) const VERSION: u64 = 1;
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct File {
+    format: String,
+    version: u64,
+    #[serde(default)]
+    provenance: BTreeMap<String, String>,
+    motion: MotionFile,
+    #[serde(default)]
+    force: Option<ForceFile>,
+    #[serde(default)]
+    compliance: Option<ComplianceFile>,
+    #[serde(default)]
+    orientation: Option<OrientationFile>,
+    #[serde(default)]
+    gripper: Option<GripperFile>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct MotionFile {
+    stiffness: f64,
+    duration_s: f64,
+    alpha: f64,
+    phase_input: PhaseInput,
+    #[serde(default = "default_gate_start")]
+    gate_start: f64,
+    columns: Vec<String>,
+    parameters: Vec<String>,
+    #[serde(default)]
+    parameter_ranges: Option<Vec<[f64; 2]>>,
+    start: MapFile,
+    goal: MapFile,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    phmm: Option<PhmmFile>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lwr: Option<LwrFile>,
+}
+
+fn default_gate_start() -> f64 {
+    0.94
+}
+
+#[derive(Serialize, Deserialize)]
+struct ForceFile {
+    columns: Vec<String>,
+    parameters: Vec<String>,
+    #[serde(default)]
+    parameter_ranges: Option<Vec<[f64; 2]>>,
+    phase_input: PhaseInput,
+    phmm: PhmmFile,
+}
+
+impl File {
+    pub(super) fn of(skill: &Skill) -> Self {
+        let m = &skill.motion;
+        let history = |of: &str| skill.histories.iter().find(|(name, _)| name == of).map(|(_, h)| h.clone()).unwrap_or_default();
+        let (phmm, lwr) = match &m.shaping {
+            Shaping::Phmm(phmm) => (Some(PhmmFile::of(phmm, history("motion"))), None),
+            Shaping::Lwr(lwr) => (None, Some(LwrFile::of(lwr))),
+        };
+        let motion = MotionFile {
+            stiffness: m.stiffness,
+            duration_s: m.duration_s,
+            alpha: m.alpha,
+            phase_input: m.phase_input,
+            gate_start: m.gate_start,
+            columns: m.columns.clone(),
+            parameters: m.parameters.names.clone(),
+            parameter_ranges: Some(m.parameters.ranges.clone()),
+            start: MapFile::of(&m.start),
+            goal: MapFile::of(&m.goal),
+            phmm,
+            lwr,
+        };
+        let force = skill.force.as_ref().map(|f| ForceFile {
+            columns: f.columns.clone(),
+            parameters: f.parameters.names.clone(),
+            parameter_ranges: Some(f.parameters.ranges.clone()),
+            phase_input: f.phase_input,
+            phmm: PhmmFile::of(&f.phmm, history("force")),
+        });
+        let compliance = Some(ComplianceFile::of(&skill.compliance));
+        let orientation = skill.orientation.as_ref().map(OrientationFile::of);
+        let gripper = skill.gripper.as_ref().map(|g| GripperFile { openings: g.openings.clone() });
+        let provenance = skill.provenance.iter().cloned().collect();
+        Self { format: FORMAT.to_owned(), version: VERSION, provenance, motion, force, compliance, orientation, gripper }
+    }
+
+    pub(super) fn into_skill(self) -> Result<Skill, LearningError> {
+        let m = self.motion;
+        let p = m.parameters.len();
+        let mut histories = Vec::new();
+        let shaping = match (m.phmm, m.lwr) {
+            (Some(phmm), None) => {
+                histories.push(("motion".to_owned(), phmm.log_likelihood.clone()));
+                Shaping::Phmm(phmm.into_phmm("motion.phmm", p)?)
+            }
+            (None, Some(lwr)) => Shaping::Lwr(lwr.into_lwr(m.columns.len())?),
+            _ => return Err(LearningError::Skill("motion needs either phmm or lwr".to_owned())),
+        };
+        let motion = MotionModel {
+            stiffness: m.stiffness,
+            duration_s: m.duration_s,
+            alpha: m.alpha,
+            phase_input: m.phase_input,
+            gate_start: m.gate_start,
+            start: m.start.into_map("motion.start", p)?,
+            goal: m.goal.into_map("motion.goal", p)?,
+            columns: m.columns,
+            parameters: space(m.parameters, m.parameter_ranges),
+            shaping,
+        };
+        let force = match self.force {
+            Some(f) => {
+                histories.push(("force".to_owned(), f.phmm.log_likelihood.clone()));
+                let phmm = f.phmm.into_phmm("force.phmm", f.parameters.len())?;
+                let parameters = space(f.parameters, f.parameter_ranges);
+                Some(ForceModel { columns: f.columns, parameters, phase_input: f.phase_input, phmm })
+            }
+            None => None,
+        };
+        let compliance = match self.compliance {
+            Some(c) => c.into_compliance(motion.columns.len())?,
+            None => Compliance::stiff(motion.states(), motion.columns.len()),
+        };
+        let orientation = self.orientation.map(OrientationFile::into_profile).transpose()?;
+        let gripper = self.gripper.map(|g| GripperProfile { openings: g.openings });
+        let provenance = self.provenance.into_iter().collect();
+        Ok(Skill { motion, force, compliance, orientation, gripper, provenance, histories })
+    }
+}
+
+/// Parameter ranges may be absent in files of other programs: then everything counts as demonstrated.
+fn space(names: Vec<String>, ranges: Option<Vec<[f64; 2]>>) -> ParameterSpace {
+    let ranges = ranges.unwrap_or_else(|| vec![[-f64::MAX, f64::MAX]; names.len()]);
+    ParameterSpace { names, ranges }
+}

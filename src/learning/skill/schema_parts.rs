@@ -1,0 +1,159 @@
+//! The parts of a skill file: matrices as lists of rows.
+
+use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion};
+use serde::{Deserialize, Serialize};
+
+use crate::learning::cpdmp::{Compliance, Statistic};
+use crate::learning::dmp::Lwr;
+use crate::learning::phmm::Phmm;
+use crate::learning::{LearningError, LinearMap, OrientationProfile};
+
+type Rows = Vec<Vec<f64>>;
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct MapFile {
+    weights: Rows,
+    mean: Vec<f64>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct PhmmFile {
+    initial: Vec<f64>,
+    transition: Rows,
+    weights: Vec<Rows>,
+    means: Rows,
+    covariances: Vec<Rows>,
+    #[serde(default)]
+    pub(super) log_likelihood: Vec<f64>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct LwrFile {
+    centres: Vec<f64>,
+    widths: Vec<f64>,
+    weights: Rows,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct ComplianceFile {
+    statistic: Statistic,
+    /// `null`: no state complies.
+    threshold_m2: Option<f64>,
+    values_m2: Vec<f64>,
+    beta: Vec<f64>,
+    between_m2: Vec<Rows>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct OrientationFile {
+    reference: [f64; 4],
+    mean: Rows,
+    weights: Vec<Rows>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct GripperFile {
+    pub(super) openings: Vec<f64>,
+}
+
+impl MapFile {
+    pub(super) fn of(map: &LinearMap) -> Self {
+        Self { weights: rows(&map.weights), mean: map.mean.iter().copied().collect() }
+    }
+
+    pub(super) fn into_map(self, place: &str, parameters: usize) -> Result<LinearMap, LearningError> {
+        Ok(LinearMap { weights: matrix(place, &self.weights, parameters)?, mean: DVector::from_vec(self.mean) })
+    }
+}
+
+impl PhmmFile {
+    pub(super) fn of(phmm: &Phmm, log_likelihood: Vec<f64>) -> Self {
+        Self {
+            initial: phmm.initial.iter().copied().collect(),
+            transition: rows(&phmm.transition),
+            weights: phmm.weights.iter().map(rows).collect(),
+            means: phmm.means.iter().map(|m| m.iter().copied().collect()).collect(),
+            covariances: phmm.covariances.iter().map(rows).collect(),
+            log_likelihood,
+        }
+    }
+
+    pub(super) fn into_phmm(self, place: &str, parameters: usize) -> Result<Phmm, LearningError> {
+        let (n, d) = (self.initial.len(), self.means.first().map_or(0, Vec::len));
+        let matrices = |key: &str, list: &[Rows], columns: usize| -> Result<Vec<DMatrix<f64>>, LearningError> {
+            list.iter().enumerate().map(|(i, m)| matrix(&format!("{place}.{key}[{i}]"), m, columns)).collect()
+        };
+        Ok(Phmm {
+            transition: matrix(&format!("{place}.transition"), &self.transition, n)?,
+            weights: matrices("weights", &self.weights, parameters)?,
+            covariances: matrices("covariances", &self.covariances, d)?,
+            initial: DVector::from_vec(self.initial),
+            means: self.means.into_iter().map(DVector::from_vec).collect(),
+        })
+    }
+}
+
+impl LwrFile {
+    pub(super) fn of(lwr: &Lwr) -> Self {
+        Self { centres: lwr.centres.iter().copied().collect(), widths: lwr.widths.iter().copied().collect(), weights: rows(&lwr.weights) }
+    }
+
+    pub(super) fn into_lwr(self, columns: usize) -> Result<Lwr, LearningError> {
+        let weights = matrix("motion.lwr.weights", &self.weights, columns)?;
+        Ok(Lwr { centres: DVector::from_vec(self.centres), widths: DVector::from_vec(self.widths), weights })
+    }
+}
+
+impl ComplianceFile {
+    pub(super) fn of(c: &Compliance) -> Self {
+        Self {
+            statistic: c.statistic,
+            threshold_m2: c.threshold_m2.is_finite().then_some(c.threshold_m2),
+            values_m2: c.values_m2.clone(),
+            beta: c.beta.clone(),
+            between_m2: c.between.iter().map(rows).collect(),
+        }
+    }
+
+    pub(super) fn into_compliance(self, columns: usize) -> Result<Compliance, LearningError> {
+        let between = self.between_m2.iter().enumerate();
+        let between = between.map(|(i, b)| matrix(&format!("compliance.between_m2[{i}]"), b, columns));
+        Ok(Compliance {
+            statistic: self.statistic,
+            threshold_m2: self.threshold_m2.unwrap_or(f64::INFINITY),
+            values_m2: self.values_m2,
+            beta: self.beta,
+            between: between.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl OrientationFile {
+    pub(super) fn of(o: &OrientationProfile) -> Self {
+        Self { reference: o.reference.coords.into(), mean: rows(&o.mean), weights: o.weights.iter().map(rows).collect() }
+    }
+
+    pub(super) fn into_profile(self) -> Result<OrientationProfile, LearningError> {
+        let q = Quaternion::from(nalgebra::Vector4::from(self.reference));
+        if !(q.norm() - 1.0).abs().lt(&1e-6) {
+            return Err(LearningError::Skill("orientation.reference is not a unit quaternion x, y, z, w".to_owned()));
+        }
+        let weights = self.weights.iter().enumerate().map(|(j, w)| matrix(&format!("orientation.weights[{j}]"), w, 3));
+        Ok(OrientationProfile {
+            reference: UnitQuaternion::new_unchecked(q),
+            mean: matrix("orientation.mean", &self.mean, 3)?,
+            weights: weights.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Rows {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+fn matrix(place: &str, rows: &Rows, columns: usize) -> Result<DMatrix<f64>, LearningError> {
+    if let Some(row) = rows.iter().position(|row| row.len() != columns) {
+        return Err(LearningError::Skill(format!("{place}: row {row} has {} numbers, expected {columns}", rows[row].len())));
+    }
+    Ok(DMatrix::from_fn(rows.len(), columns, |i, j| rows[i][j]))
+}

@@ -1,0 +1,36 @@
+//! A filled tree to what a run must show.
+
+use super::tree::Node;
+use crate::check::{CriterionKind, CriterionSpec, Expectation};
+
+/// What a scenario asks of the run.
+pub(super) fn criteria(scenario: &Node) -> Vec<CriterionSpec> {
+    scenario.tables("criterion").iter().filter_map(criterion).collect()
+}
+
+fn criterion(table: &Node) -> Option<CriterionSpec> {
+    let object = || table.text("object").to_owned();
+    let max_m = || table.number("max_m");
+    let kind = match table.text("kind") {
+        "object_in_container" => CriterionKind::ObjectInContainer {
+            object: object(),
+            container: table.text("container").to_owned(),
+            speed_max_m_per_s: table.number("speed_max_m_per_s"),
+        },
+        "no_contact" => CriterionKind::NoContact { objects: table.texts("objects") },
+        "clearance" => CriterionKind::Clearance { objects: table.texts("objects"), min_m: table.number("min_m") },
+        "goal_reached" => CriterionKind::GoalReached { max_m: max_m() },
+        "human_force" => CriterionKind::HumanForce { max_n: table.number("max_n") },
+        "compliance_window" => CriterionKind::ComplianceWindow { ends_before: table.text("ends_before").to_owned() },
+        "gripper_over_object" => CriterionKind::GripperOverObject { object: object(), max_m: max_m() },
+        "reference_unmoved" => CriterionKind::ReferenceUnmoved { max_m: max_m() },
+        "gripper_unmoved" => CriterionKind::GripperUnmoved { max_m: max_m() },
+        _ => return None,
+    };
+    let expect = match table.text("expect") {
+        "fail" => Expectation::Fail,
+        "report" => Expectation::Report,
+        _ => Expectation::Pass,
+    };
+    Some(CriterionSpec { name: table.text("name").to_owned(), kind, expect })
+}

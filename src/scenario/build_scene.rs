@@ -1,0 +1,66 @@
+//! A filled tree to the scene and to what is taught in it.
+
+use super::tree::Node;
+use crate::simulation::{TeachingPlan, Waypoint};
+use crate::world::{Object, ObjectKind};
+
+/// An object of the scene; none if its kind is faulty.
+pub(super) fn object(table: &Node) -> Option<Object> {
+    let kind = match table.text("kind") {
+        "table" => ObjectKind::Table {
+            size_m: table.vector2("size_m"),
+            top_height_m: table.number("top_height_m"),
+            friction: table.number("friction"),
+        },
+        "u_block" => ObjectKind::UBlock {
+            base_height_m: table.quantity("base_height_m"),
+            aperture_m: table.number("aperture_m"),
+            post_height_m: table.number("post_height_m"),
+            post_width_m: table.number("post_width_m"),
+            thickness_m: table.number("thickness_m"),
+        },
+        "ball" => ObjectKind::Ball {
+            radius_m: table.number("radius_m"),
+            mass_kg: table.number("mass_kg"),
+            friction: table.number("friction"),
+            rolling_damping_per_s: table.number("rolling_damping_per_s"),
+        },
+        "box" => ObjectKind::Box {
+            size_m: table.array::<3>("size_m").into(),
+            mass_kg: table.number("mass_kg"),
+            friction: table.number("friction"),
+        },
+        "basket" => ObjectKind::Basket {
+            inner_size_m: table.vector2("inner_size_m"),
+            wall_height_m: table.number("wall_height_m"),
+            wall_thickness_m: table.number("wall_thickness_m"),
+        },
+        _ => return None,
+    };
+    let center_m = table.vector2("center_m");
+    Some(Object { name: table.text("name").to_owned(), center_m, lateral_offset_m: table.quantity("lateral_offset_m"), kind })
+}
+
+/// How the virtual human teaches.
+pub(super) fn teaching(table: &Node) -> TeachingPlan {
+    let grid = table.section("grid");
+    TeachingPlan {
+        grid: grid.entries().iter().map(|entry| (entry.key.clone(), entry.node.as_numbers())).collect(),
+        tool_yaw_rad: table.number("tool_yaw_rad"),
+        zero_gravity_damping_nms_per_rad: table.number("zero_gravity_damping_nms_per_rad"),
+        duration_s: table.number("duration_s"),
+        record_rate_hz: table.number("record_rate_hz"),
+        position_spread_m: table.number("position_spread_m"),
+        timing_spread: table.number("timing_spread"),
+        waypoints: table.tables("waypoint").iter().map(waypoint).collect(),
+    }
+}
+
+fn waypoint(table: &Node) -> Waypoint {
+    Waypoint {
+        time_s: table.number("time_s"),
+        at: table.optional_text("at"),
+        offset_m: table.array("offset_m"),
+        gripper: table.optional_number("gripper"),
+    }
+}

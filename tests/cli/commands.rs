@@ -1,0 +1,143 @@
+//! Every command that needs no simulation: what it prints where, and its exit code.
+
+use std::io::Read;
+use std::process::Stdio;
+
+use serde_json::Value;
+
+use super::{Folder, GOOD};
+
+fn good() -> Folder {
+    Folder::with(&[("a.toml", GOOD.as_bytes())])
+}
+
+#[test]
+fn a_command_line_without_sense_ends_with_2_and_says_so_on_stderr() {
+    for arguments in
+        [&[][..], &["fly"], &["run"], &["run", "a.toml", "--jobs", "0"], &["run", "a.toml", "--seed", "-1"], &["list", "--colour"]]
+    {
+        let said = good().call(arguments);
+        assert_eq!((said.code, said.stdout.as_str()), (Some(2), ""), "{arguments:?}");
+        assert!(!said.stderr.is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn help_and_version_are_results() {
+    for (argument, text) in [("--help", "Usage: cpdmp"), ("--version", env!("CARGO_PKG_VERSION"))] {
+        let said = good().call(&[argument]);
+        assert_eq!((said.code, said.stderr.as_str()), (Some(0), ""));
+        assert!(said.stdout.contains(text), "{}", said.stdout);
+    }
+}
+
+#[test]
+fn validate_accepts_a_good_scenario_and_writes_nothing() {
+    let folder = good();
+    let said = folder.call(&["validate", "a.toml"]);
+    assert_eq!((said.code, said.stdout.as_str()), (Some(0), "a.toml: ok\n"), "{}", said.stderr);
+    assert_eq!(folder.names(), ["a.toml"]);
+}
+
+#[test]
+fn validate_tells_programs_everything_on_stdout() {
+    let folder = Folder::with_change("mass_kg = 0.05", "mas_kg = 0.05");
+    let said = folder.call(&["validate", "a.toml", "--format", "json"]);
+    assert_eq!((said.code, said.stderr.as_str()), (Some(3), ""));
+    let answer: Value = serde_json::from_str(&said.stdout).expect("JSON");
+    assert_eq!((answer["exit_code"].as_i64(), answer["outcome"].as_str()), (Some(3), Some("invalid_input")));
+    let codes: Vec<&str> = answer["diagnostics"].as_array().expect("a list").iter().filter_map(|found| found["code"].as_str()).collect();
+    assert_eq!(codes, ["missing_key", "unknown_key"]);
+    assert_eq!(
+        answer["diagnostics"][1]["line"].as_i64(),
+        Some(GOOD[..GOOD.find("mass_kg").expect("there")].matches('\n').count() as i64 + 1)
+    );
+}
+
+#[test]
+fn a_missing_file_is_invalid_input() {
+    let said = good().call(&["run", "absent.toml"]);
+    assert_eq!(said.code, Some(3));
+    assert!(said.stderr.contains("absent.toml") && said.stderr.contains("No such file"), "{}", said.stderr);
+}
+
+#[test]
+fn nothing_selected_is_a_failure() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("empty/readme.md", b"")]);
+    for argument in ["empty", "*.yaml", "empty/*.toml"] {
+        let said = folder.call(&["run", argument]);
+        assert_eq!(said.code, Some(5), "{argument}");
+        assert!(said.stderr.contains("no scenarios"), "{}", said.stderr);
+    }
+}
+
+#[test]
+fn every_scenario_is_checked_before_the_first_one_runs() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("b.toml", b"name = 3")]);
+    let said = folder.call(&["run", "a.toml", "b.toml"]);
+    assert_eq!(said.code, Some(3));
+    assert_eq!(folder.names(), ["a.toml", "b.toml"], "nothing was written");
+}
+
+#[test]
+fn list_names_scenarios_with_what_they_show() {
+    let described = GOOD.replace("name = \"good\"", "name = \"good\"\ndescription = \"shows something\"");
+    let folder = Folder::with(&[("scenarios/a.toml", described.as_bytes()), ("scenarios/b.toml", b"=")]);
+    let said = folder.call(&["list"]);
+    assert_eq!(said.code, Some(0));
+    let lines: Vec<&str> = said.stdout.lines().collect();
+    assert_eq!(lines.len(), 2, "{}", said.stdout);
+    assert!(lines[0].starts_with("scenarios/a.toml") && lines[0].ends_with("shows something"));
+    assert!(lines[1].starts_with("scenarios/b.toml") && lines[1].contains("cannot be used"));
+    let said = folder.call(&["list", "--format", "json"]);
+    let entries: Vec<Value> = said.stdout.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    assert_eq!(entries.iter().map(|entry| entry["valid"].as_bool()).collect::<Vec<_>>(), [Some(true), Some(false)]);
+}
+
+#[test]
+fn explain_knows_every_exit_code() {
+    let said = good().call(&["explain"]);
+    assert_eq!(said.code, Some(0));
+    for code in ["0", "1", "2", "3", "4", "5", "10", "11", "20", "21"] {
+        assert!(said.stdout.lines().any(|line| line.trim_start().starts_with(&format!("{code} "))), "{code}:\n{}", said.stdout);
+    }
+    let said = good().call(&["explain", "unknown_key"]);
+    assert!(said.stdout.contains("means nothing where it stands"));
+    assert_eq!(good().call(&["explain", "77"]).code, Some(2));
+}
+
+#[test]
+fn a_reader_who_leaves_is_no_failure() {
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_cpdmp"))
+        .arg("explain")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    drop(child.stdout.take());
+    let status = child.wait().expect("it ends");
+    let mut complaints = String::new();
+    child.stderr.take().expect("piped").read_to_string(&mut complaints).expect("text");
+    assert_eq!((status.code(), complaints.as_str()), (Some(0), ""));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn results_that_cannot_be_written_end_with_20() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_cpdmp")).arg("explain").stdout(full).status().expect("it starts");
+    assert_eq!(status.code(), Some(20));
+}
+
+#[test]
+fn colour_and_characters_follow_the_reader() {
+    let folder = Folder::with_change("mass_kg = 0.05", "mass_kg = -1");
+    let call = |arguments: &[&str], locale: &str| {
+        let output = super::cpdmp().current_dir(folder.path()).env("LC_ALL", locale).args(["validate", "a.toml"]).args(arguments).output();
+        String::from_utf8(output.expect("it starts").stderr).expect("text")
+    };
+    assert!(!call(&[], "C.UTF-8").contains('\u{1b}'), "a pipe gets no colour");
+    assert!(call(&["--color", "always"], "C.UTF-8").contains('\u{1b}'));
+    assert!(call(&[], "C.UTF-8").contains('…'));
+    assert!(call(&[], "POSIX").is_ascii());
+}

@@ -1,0 +1,8 @@
+//! The real binary, as a person or a CI job calls it.
+
+mod commands;
+mod overrides;
+mod program;
+mod run_folder;
+
+pub use program::{Folder, GOOD, cpdmp};

@@ -1,0 +1,5 @@
+//! Everything that can be wrong with what the program is given. One test per fault, on the real binary.
+
+mod extends;
+mod hostile_files;
+mod scenario;

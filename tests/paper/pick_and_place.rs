@@ -1,0 +1,97 @@
+//! Section 4.4: pick and place through two U-shaped blocks with a helping human, over many settings, seeds and counterfactuals.
+//!
+//! The nine demonstrations are taught once and shared; every execution is a simulation of its own.
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use cpdmp::check::{Criterion, judge};
+use cpdmp::demonstration::Dataset;
+use cpdmp::learning::{self, Learned};
+use cpdmp::math;
+use cpdmp::scenario::{LoadOptions, Scenario};
+use cpdmp::simulation::{History, RunOutcome, Setup, Silent, demonstrate, perform};
+use rayon::prelude::*;
+
+/// A shipped scenario.
+fn scenario(name: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
+    Scenario::load(&path, &LoadOptions::default()).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// The nine demonstrations of the shipped scenario and what was learned from them.
+fn taught() -> &'static (Dataset, Learned) {
+    static TAUGHT: OnceLock<(Dataset, Learned)> = OnceLock::new();
+    TAUGHT.get_or_init(|| {
+        let scenario = scenario("pick_and_place.toml");
+        let setup = Setup::new(&scenario.experiment).expect("the robot loads");
+        let (dataset, _) = demonstrate(&setup, &Silent).expect("nine demonstrations");
+        let learned = learning::learn(&dataset, &scenario.experiment.learning, 0).expect("a skill");
+        (dataset, learned)
+    })
+}
+
+/// One execution of the taught skill in a setting.
+fn executed(scenario: &Scenario, learned: &Learned, height_m: f64, lateral_m: f64, seed: u64) -> (RunOutcome, Vec<Criterion>) {
+    let mut experiment = scenario.experiment.clone();
+    experiment.seed = seed;
+    experiment.parameters = experiment.parameters.with(&[("block_height_m".into(), height_m), ("toy_lateral_m".into(), lateral_m)]);
+    let setup = Setup::new(&experiment).expect("the robot loads");
+    let outcome = perform(&setup, &taught().0, learned, History::default(), &Silent).expect("the execution ends");
+    let criteria = judge(&outcome, &experiment, &scenario.criteria);
+    (outcome, criteria)
+}
+
+fn value(criteria: &[Criterion], name: &str) -> f64 {
+    criteria.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no criterion {name}")).value
+}
+
+fn passed(criteria: &[Criterion], name: &str) -> bool {
+    criteria.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no criterion {name}")).passed
+}
+
+/// Height, lateral place of the toy and seed of trial `k`.
+fn setting(k: u64) -> (f64, f64, u64) {
+    let mut random = math::stream(44, "settings", k);
+    (math::uniform(&mut random, 0.18, 0.25), math::uniform(&mut random, -0.06, 0.06), 1000 + k)
+}
+
+#[test]
+fn forty_random_settings_bring_the_toy_into_the_basket_and_touch_no_block() {
+    let scenario = scenario("pick_and_place.toml");
+    // Taught here and not inside the parallel loop, whose workers would wait for each other.
+    let learned = &taught().1;
+    let trials: Vec<_> = (0..40u64)
+        .into_par_iter()
+        .map(|k| {
+            let (height_m, lateral_m, seed) = setting(k);
+            (k, height_m, lateral_m, executed(&scenario, learned, height_m, lateral_m, seed).1)
+        })
+        .collect();
+    let mut failures = 0;
+    let mut smallest = f64::INFINITY;
+    for (k, height_m, lateral_m, criteria) in &trials {
+        let missed: Vec<&str> = criteria.iter().filter(|c| !c.as_expected()).map(|c| c.name.as_str()).collect();
+        if !missed.is_empty() {
+            println!("trial {k}: height {height_m:.3} m, toy at {lateral_m:+.3} m: {missed:?}");
+        }
+        failures += usize::from(!missed.is_empty());
+        assert!(passed(criteria, "blocks_untouched"), "trial {k} touched a block");
+        smallest = smallest.min(value(criteria, "aperture_1_clear")).min(value(criteria, "aperture_2_clear"));
+    }
+    println!("{} of 40 succeed, smallest aperture clearance {:.1} mm", 40 - failures, smallest * 1e3);
+    assert!(failures <= 2, "{failures} of 40 failed");
+    assert!(smallest >= 0.005, "{smallest} m");
+}
+
+#[test]
+fn heights_outside_the_taught_range_pass_both_apertures() {
+    let scenario = scenario("pick_and_place.toml");
+    for height_m in [0.15, 0.29] {
+        let (_, criteria) = executed(&scenario, &taught().1, height_m, 0.03, 7);
+        for name in ["blocks_untouched", "aperture_1_clear", "aperture_2_clear"] {
+            assert!(passed(&criteria, name), "{name} at {height_m} m: {}", value(&criteria, name));
+        }
+        println!("{height_m} m: apertures {:.1} and {:.1} mm", value(&criteria, "aperture_1_clear") * 1e3, value(&criteria, "aperture_2_clear") * 1e3);
+    }
+}
