@@ -25,7 +25,7 @@ const FOREIGN: [(&str, &[&str]); 12] = [
     // `dataset.toml` is a list of files that the reader of datasets owns; the language of scenarios is known to `scenario` alone.
     ("toml", &["scenario", "demonstration"]),
     ("annotate_snippets", &["scenario"]),
-    ("strsim", &["scenario", "cli"]),
+    ("strsim", &["scenario", "robot"]),
     ("clap", &["cli"]),
     ("indicatif", &["cli"]),
     ("anstream", &["cli"]),
@@ -59,13 +59,13 @@ impl Line {
         format!("{}:{}: {}", self.file.display(), self.number, self.code.trim())
     }
 
-    /// Whether the line names `crate_name::`, as a whole word.
+    /// Whether the line names `path`, which begins at a word and ends at one or in `::`.
     fn names(&self, path: &str) -> bool {
         self.code.match_indices(path).any(|(index, _)| {
             let word = |c: char| c.is_alphanumeric() || c == '_';
             let before = self.code[..index].chars().next_back();
             let after = self.code[index + path.len()..].chars().next();
-            !before.is_some_and(|c| word(c) || c == ':') && !after.is_some_and(word)
+            !before.is_some_and(|c| word(c) || c == ':') && (path.ends_with(':') || !after.is_some_and(word))
         })
     }
 }

@@ -16,6 +16,7 @@ mod terminal;
 mod validate;
 
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Parser;
 
@@ -55,7 +56,12 @@ fn told_by_clap(error: &clap::Error) -> Outcome {
     if error.use_stderr() { Outcome::Usage } else { Outcome::Passed }
 }
 
+/// Told once, even when several threads meet the same bug.
 fn report_bug(panic: &std::panic::PanicHookInfo<'_>) {
+    static TOLD: AtomicBool = AtomicBool::new(false);
+    if TOLD.swap(true, Ordering::Relaxed) {
+        return;
+    }
     let what = panic.payload_as_str().unwrap_or("no message");
     let place = panic.location().map_or(String::new(), |location| format!(" ({}:{})", location.file(), location.line()));
     terminal::complain(&format!(

@@ -21,6 +21,9 @@ impl Default for PhysicsSettings {
     }
 }
 
+/// Natural frequency of a contact, as of a spring between the two bodies (Hz).
+const CONTACT_FREQUENCY_HZ: f64 = 60.0;
+
 /// An empty engine.
 pub(super) fn engine(settings: &PhysicsSettings) -> PhysicsWorld {
     let mut engine = PhysicsWorld::new();
@@ -35,6 +38,9 @@ pub(super) fn engine(settings: &PhysicsSettings) -> PhysicsWorld {
     // The defaults are made for games: 5 mm of tolerated penetration, 20 mm of look-ahead.
     parameters.normalized_allowed_linear_error = 2e-4;
     parameters.normalized_prediction_distance = 4e-3;
+    // How soft things are: a 50 g toy then yields about 4 N/mm between the fingers, and hard enough that nothing sinks into the table.
+    parameters.contact_softness.natural_frequency = CONTACT_FREQUENCY_HZ;
+    parameters.static_contact_softness.natural_frequency = CONTACT_FREQUENCY_HZ;
     engine
 }
 

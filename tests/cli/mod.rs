@@ -3,6 +3,7 @@
 mod commands;
 mod overrides;
 mod program;
+mod real_run;
 mod run_folder;
 
 pub use program::{Folder, GOOD, cpdmp};

@@ -16,7 +16,7 @@ block_height_m = 0.2
 [[object]]
 name = "block"
 kind = "u_block"
-center_m = [0.6, 0.3]
+center_m = [1.2, 0.9]
 base_height_m = "block_height_m"
 aperture_m = 0.18
 post_height_m = 0.14
@@ -30,6 +30,7 @@ mass_kg = 0.05
 
 [teaching]
 duration_s = 4.0
+position_spread_m = 0.002
 grid = { block_height_m = [0.17, 0.20, 0.26] }
 
 [[teaching.waypoint]]
@@ -77,11 +78,7 @@ impl Folder {
 
     /// The files and folders in it, sorted.
     pub fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.path()).expect("a folder");
-        let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("an entry").file_name().to_string_lossy().into_owned();
-        let mut names: Vec<String> = entries.map(name).collect();
-        names.sort();
-        names
+        names(self.path())
     }
 
     /// Calls the program in this folder.
@@ -100,6 +97,15 @@ impl Folder {
         assert_eq!(said.code, Some(3), "{}{}", said.stdout, said.stderr);
         said.stderr
     }
+}
+
+/// The files and folders in a folder, sorted.
+pub fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("an entry").file_name().to_string_lossy().into_owned();
+    let mut names: Vec<String> = entries.map(name).collect();
+    names.sort();
+    names
 }
 
 /// What the program said.

@@ -29,7 +29,7 @@ pub(super) fn log_events(recorder: &Recorder, outcome: &RunOutcome) -> Result<()
         Kind::Fault => rerun::TextLogLevel::ERROR,
     };
     let log = rerun::TextLog::update_fields()
-        .with_many_text(events.iter().map(|event| event.text.as_str()))
+        .with_many_text(events.iter().map(|event| format!("{:.2} s: {}", event.time_s, event.text)))
         .with_many_level(events.iter().map(level));
     recorder.at_times(EVENTS.path(), &times, log.columns_of_unit_batches()?)
 }

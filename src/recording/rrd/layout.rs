@@ -10,7 +10,7 @@ use rerun::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
     Background, EyeControls3D, LineGrid3D, PlotLegend, TextLogColumns, TimeAxis, VisibleTimeRanges,
 };
-use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
+use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind, TimelineColumn};
 
 use super::blueprint_property::Properties;
 use super::convert;
@@ -90,7 +90,11 @@ impl Views {
     fn events(&mut self) -> Result<View, Fault> {
         let view = view(TextLogView::new("Events").with_origin("/events"))?;
         let column = |kind| TextLogColumn { kind, visible: true.into() };
-        let columns = TextLogColumns::new().with_text_log_columns([column(TextLogColumnKind::LogLevel), column(TextLogColumnKind::Body)]);
+        // The texts begin with the time: the viewer's own column of it is too narrow for five digits.
+        let time = TimelineColumn { timeline: SIM_TIME.name.into(), visible: false.into() };
+        let columns = TextLogColumns::new()
+            .with_timeline_columns([time])
+            .with_text_log_columns([column(TextLogColumnKind::LogLevel), column(TextLogColumnKind::Body)]);
         self.properties.set(&view, "TextLogColumns", columns);
         Ok(view)
     }

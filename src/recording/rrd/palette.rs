@@ -28,3 +28,10 @@ pub(super) const PERSON: Color = rgb(213, 94, 0);
 pub(super) const IDLE: Color = rgb(70, 74, 82);
 /// Behind the scene.
 pub(super) const BACKGROUND: Color = rgb(74, 82, 94);
+
+/// A lighter shade, for text on dark grey.
+pub(super) fn light(color: Color) -> Color {
+    let [r, g, b, a] = color.to_array();
+    let lighter = |c: u8| c + (255 - c) / 5 * 2;
+    Color::from_unmultiplied_rgba(lighter(r), lighter(g), lighter(b), a)
+}

@@ -108,3 +108,25 @@ fn nanoseconds(time_s: f64) -> i64 {
 fn ten_thousandths(fraction: f64) -> i64 {
     (fraction * 1e4).round() as i64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_cut_off_has_no_footer() -> Result<(), Fault> {
+        let folder = tempfile::TempDir::new()?;
+        let path = folder.path().join("recording.rrd");
+        let stream = rerun::RecordingStreamBuilder::new("cpdmp").save(&path)?;
+        let recorder = Recorder::new(stream, &[], 1e-3, 1.0);
+        recorder.always(EntityPath::from("entity"), &rerun::TextDocument::new("text"))?;
+        recorder.finish()?;
+        assert!(has_footer(&path)?);
+        let whole = std::fs::read(&path)?;
+        for kept in [0, 10, whole.len() / 2, whole.len() - 1] {
+            std::fs::write(&path, &whole[..kept])?;
+            assert!(!has_footer(&path)?, "{kept} of {} bytes", whole.len());
+        }
+        Ok(())
+    }
+}

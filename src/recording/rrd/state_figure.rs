@@ -6,6 +6,7 @@ use rerun::{Ellipsoids3D, Points3D, Radius, Scalars};
 use super::convert;
 use super::entity_path::{ACTIVE_LABEL, ACTIVE_STATE, STATE_LOWER, STATE_UPPER, STATES};
 use super::lanes::{beta_color, beta_in_words};
+use super::palette;
 use super::paths::{AXES, style};
 use super::recorder::{Fault, Recorder};
 use super::task_states::{Plan, State, states};
@@ -17,8 +18,8 @@ const DEVIATIONS: f64 = 2.0;
 /// Half axes of ellipsoids are at least this long (m), or those of states on which all agree could not be seen.
 const THINNEST_M: f64 = 0.004;
 
-/// From the middle of the way of the tool to the label of the active state (m): above the scene, so that it does not cover the gripper.
-const LABEL_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(0.0, 0.42, 0.3);
+/// From the middle of the way of the tool to the label of the active state (m): beside the scene, where it covers nothing.
+const LABEL_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(0.0, 0.6, 0.3);
 
 /// Points of half an ellipse.
 const POINTS: usize = 41;
@@ -58,7 +59,7 @@ fn log_active(recorder: &Recorder, states: &[State], records: &[StepRecord], mid
     let labels = Points3D::update_fields()
         .with_positions(active.iter().map(|_| convert::vector(&(middle + LABEL_FROM_MIDDLE_M))))
         .with_labels(active.iter().map(label))
-        .with_colors(active.iter().map(|i| beta_color(states[*i].beta)));
+        .with_colors(active.iter().map(|i| palette::light(beta_color(states[*i].beta))));
     recorder.at_times(ACTIVE_LABEL.path(), &times, labels.columns_of_unit_batches()?)?;
     recorder.always(ACTIVE_LABEL.path(), &Points3D::update_fields().with_radii([0.0]).with_show_labels(true))?;
     let look = Ellipsoids3D::update_fields().with_line_radii([Radius::new_ui_points(2.0)]);

@@ -1,0 +1,161 @@
+//! The recording: read back by rerun's own decoder it holds what the records say, its entities are those that are documented, and a file
+//! that is cut off is told.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use cpdmp::recording::entity_path::{self, ENTITIES, Entity, TIMELINES};
+use cpdmp::recording::{RecordingError, write_recording};
+use cpdmp::simulation::RunOutcome;
+use rerun::external::re_log_encoding::DecoderApp;
+use rerun::external::re_log_types::LogMsg;
+use rerun::log::Chunk;
+use rerun::{ComponentDescriptor, EntityPath};
+use tempfile::TempDir;
+
+use super::made_up_run::{CLOSED, COMPLIES, HOLDS, experiment, outcome, outcome_of_the_baseline};
+
+fn written(outcome: &RunOutcome) -> (TempDir, PathBuf) {
+    let folder = TempDir::new().expect("a folder can be made");
+    let path = folder.path().join("recording.rrd");
+    write_recording(&path, &experiment(), outcome).expect("the recording is written");
+    (folder, path)
+}
+
+fn messages(path: &Path) -> Vec<LogMsg> {
+    let file = BufReader::new(File::open(path).expect("the recording is there"));
+    DecoderApp::decode_lazy(file).map(|message| message.expect("it can be decoded")).collect()
+}
+
+/// The data, without the layout.
+fn chunks(path: &Path) -> Vec<Chunk> {
+    let data = messages(path).into_iter().filter_map(|message| match message {
+        LogMsg::ArrowMsg(id, message) if id.is_recording() => Some(Chunk::from_arrow_msg(&message).expect("it is a chunk")),
+        _ => None,
+    });
+    data.collect()
+}
+
+/// What `read` finds in the rows of an entity, with the simulated time (ns).
+fn rows<T>(chunks: &[Chunk], entity: &EntityPath, component: &ComponentDescriptor, read: impl Fn(&Chunk) -> Vec<T>) -> Vec<(i64, T)> {
+    let timeline = rerun::TimelineName::try_new("sim_time").expect("a good name");
+    let of_entity = chunks.iter().filter(|chunk| chunk.entity_path() == entity && !chunk.is_static());
+    let timed = of_entity.flat_map(|chunk| {
+        let times: Vec<i64> = chunk.iter_component_indices(timeline, component.component).map(|(time, _)| time.as_i64()).collect();
+        times.into_iter().zip(read(chunk)).collect::<Vec<_>>()
+    });
+    timed.collect()
+}
+
+fn texts(chunks: &[Chunk], entity: &Entity, component: &ComponentDescriptor) -> Vec<(i64, String)> {
+    let read = |chunk: &Chunk| chunk.iter_slices::<String>(component.component).map(|texts| texts[0].to_string()).collect();
+    rows(chunks, &entity.path(), component, read)
+}
+
+fn nanoseconds(step: usize) -> i64 {
+    50_000_000 * step as i64
+}
+
+#[test]
+fn the_executed_path_is_that_of_the_records() {
+    let outcome = outcome();
+    let (_folder, path) = written(&outcome);
+    let chunks = chunks(&path);
+    let scalars = rerun::Scalars::descriptor_scalars();
+    for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+        let read = |chunk: &Chunk| chunk.iter_slices::<f64>(scalars.component).map(|values| values[0].to_bits()).collect();
+        let found = rows(&chunks, &entity_path::EXECUTED_MOTION.of(&[name]), &scalars, read);
+        let expected = outcome.steps.iter().enumerate().map(|(i, r)| (nanoseconds(i), r.tool.translation.vector[axis].to_bits()));
+        assert_eq!(found, expected.collect::<Vec<_>>(), "{name}");
+    }
+    let translation = rerun::Transform3D::descriptor_translation();
+    let read = |chunk: &Chunk| chunk.iter_slices::<[f32; 3]>(translation.component).map(|points| points[0]).collect();
+    let found = rows(&chunks, &entity_path::TOOL.path(), &translation, read);
+    let place = |r: &cpdmp::simulation::StepRecord| [r.tool.translation.x as f32, r.tool.translation.y as f32, r.tool.translation.z as f32];
+    assert_eq!(found, outcome.steps.iter().enumerate().map(|(i, r)| (nanoseconds(i), place(r))).collect::<Vec<_>>());
+}
+
+#[test]
+fn lanes_change_when_the_records_do() {
+    let (_folder, path) = written(&outcome());
+    let chunks = chunks(&path);
+    let state = rerun::StateChange::descriptor_state();
+    let lane = |range: std::ops::Range<usize>, on: &str, off: &str| {
+        [(0, off), (range.start, on), (range.end, off)].map(|(step, text)| (nanoseconds(step), text.to_owned())).to_vec()
+    };
+    assert_eq!(texts(&chunks, &entity_path::COMPLIANCE_LANE, &state), lane(COMPLIES, "complies", "stiff"));
+    assert_eq!(texts(&chunks, &entity_path::PERSON_LANE, &state), lane(HOLDS, "holds", "hands off"));
+    assert_eq!(texts(&chunks, &entity_path::GRIPPER_LANE, &state), lane(CLOSED, "closed", "open"));
+}
+
+#[test]
+fn events_tell_what_happened_in_order() {
+    let (_folder, path) = written(&outcome());
+    let found = texts(&chunks(&path), &entity_path::EVENTS, &rerun::TextLog::descriptor_text());
+    let expected = [
+        (0, "the skill starts, stiff"),
+        (COMPLIES.start, "the arm complies from here (state 1)"),
+        (HOLDS.start, "the person takes hold"),
+        (CLOSED.start, "the gripper closes"),
+        (HOLDS.end, "the person lets go (peak 10.8 N)"),
+        (COMPLIES.end, "the arm is stiff from here (state 3)"),
+        (CLOSED.end, "the gripper opens"),
+        (110, "the skill ends"),
+    ];
+    let timed = expected.map(|(step, text)| (nanoseconds(step), format!("{:.2} s: {text}", 0.05 * step as f64)));
+    assert_eq!(found, timed);
+}
+
+#[test]
+fn entities_and_timelines_are_those_that_are_documented() {
+    let (_folder, path) = written(&outcome());
+    let chunks = chunks(&path);
+    let fits = |entity: &str, pattern: &str| {
+        let (mut parts, mut patterns) = (entity.split('/'), pattern.split('/'));
+        let same = parts.by_ref().zip(patterns.by_ref()).all(|(part, pattern)| part == pattern || pattern.starts_with('{'));
+        same && entity.matches('/').count() == pattern.matches('/').count()
+    };
+    let found: BTreeSet<String> = chunks.iter().map(|chunk| chunk.entity_path().to_string().trim_start_matches('/').to_owned()).collect();
+    for entity in found.iter().filter(|entity| !entity.starts_with("__")) {
+        assert!(ENTITIES.iter().any(|documented| fits(entity, documented.pattern)), "{entity} is not documented");
+    }
+    for documented in ENTITIES {
+        assert!(found.iter().any(|entity| fits(entity, documented.pattern)), "nothing is logged to {}", documented.pattern);
+    }
+    let timelines: BTreeSet<&str> = chunks.iter().flat_map(|chunk| chunk.timelines().keys().map(|name| name.as_str())).collect();
+    assert_eq!(timelines, TIMELINES.map(|timeline| timeline.name).into_iter().collect());
+}
+
+#[test]
+fn the_layout_is_in_the_file() {
+    let (_folder, path) = written(&outcome());
+    let messages = messages(&path);
+    let activation = messages.iter().position(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
+    let data = messages.iter().position(|message| matches!(message, LogMsg::ArrowMsg(id, _) if id.is_recording()));
+    assert!(activation.is_some() && data.is_some());
+    let camera = messages.iter().any(|message| match message {
+        LogMsg::ArrowMsg(id, message) if id.is_blueprint() => {
+            Chunk::from_arrow_msg(message).is_ok_and(|chunk| chunk.entity_path().to_string().ends_with("EyeControls3D"))
+        }
+        _ => false,
+    });
+    assert!(camera, "the layout says where the camera stands");
+}
+
+#[test]
+fn runs_without_states_or_steps_are_recorded_too() {
+    written(&outcome_of_the_baseline());
+    written(&RunOutcome { steps: Vec::new(), ..outcome() });
+}
+
+#[test]
+fn a_recording_that_cannot_be_written_names_the_file() {
+    let error = write_recording(Path::new("/nowhere/recording.rrd"), &experiment(), &outcome()).unwrap_err();
+    assert!(matches!(error, RecordingError::Rerun { .. }) && error.to_string().contains("/nowhere/recording.rrd"), "{error}");
+    if cfg!(target_os = "linux") {
+        let error = write_recording(Path::new("/dev/full"), &experiment(), &outcome()).expect_err("the disk is full");
+        assert!(error.to_string().contains("/dev/full"), "{error}");
+    }
+}
