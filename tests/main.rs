@@ -1,5 +1,9 @@
 //! One integration binary: the heavy crates are linked once.
 
+mod architecture;
+mod cli;
+mod faults;
 mod paper;
 mod physics;
+mod recording;
 mod support;

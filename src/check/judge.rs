@@ -80,7 +80,9 @@ fn object_in_container(outcome: &RunOutcome, experiment: &Experiment, object: &s
 /// Half the inner width (m) and the height of the rim above the container's origin (m).
 fn container_size(container: &Object) -> (f64, f64) {
     match &container.kind {
-        ObjectKind::Basket { inner_size_m, wall_height_m, wall_thickness_m } => (inner_size_m.min() / 2.0, wall_height_m + wall_thickness_m),
+        ObjectKind::Basket { inner_size_m, wall_height_m, wall_thickness_m } => {
+            (inner_size_m.min() / 2.0, wall_height_m + wall_thickness_m)
+        }
         _ => (0.0, 0.0),
     }
 }

@@ -46,6 +46,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         | SimulationError::Urdf(_)
         | SimulationError::Arm(_)
         | SimulationError::Unreachable { .. }
+        | SimulationError::JointCounts(_)
         | SimulationError::World(_)
         | SimulationError::Mismatch(_) => Outcome::InvalidInput,
     }

@@ -38,7 +38,7 @@ impl Progress for Shown<'_> {
             let bar = if steps == 0 { ProgressBar::new_spinner() } else { ProgressBar::new(steps) };
             let template = if steps == 0 { "{prefix:>8}  {spinner} {elapsed}" } else { "{prefix:>8}  {bar:40} {percent:>3} %  {eta} left" };
             if let Ok(style) = ProgressStyle::with_template(template) {
-                bar.set_style(style.progress_chars("##-"));
+                bar.set_style(style.progress_chars("##-").tick_chars("|/-\\ "));
             }
             bar.set_prefix(name.to_owned());
             bar.enable_steady_tick(std::time::Duration::from_millis(200));

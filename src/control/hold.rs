@@ -25,4 +25,3 @@ impl HoldPosture {
         self.settings.command(&self.gravity_torque, q, &self.posture, &self.rest, command);
     }
 }
-

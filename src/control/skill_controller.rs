@@ -31,7 +31,17 @@ impl SkillController {
         step_s: f64,
     ) -> Self {
         let (stiffness, forces) = (skill.motion.stiffness, execution.state().expected_wrench.len().min(6));
-        Self { skill: execution, tracker, observer, orientation, step_s, stiffness, forces, telemetry: Telemetry::default(), started: false }
+        Self {
+            skill: execution,
+            tracker,
+            observer,
+            orientation,
+            step_s,
+            stiffness,
+            forces,
+            telemetry: Telemetry::default(),
+            started: false,
+        }
     }
 }
 

@@ -43,10 +43,10 @@ impl WrenchObserver {
             self.last = Some((now.position.clone(), now.velocity.clone()));
             return Vector6::zeros();
         };
-        for i in 0..q.len() {
-            self.acceleration[i] = (now.velocity[i] - v[i]) / self.step_s;
-            self.effort[i] = now.effort[i];
+        for (acceleration, (after, before)) in self.acceleration.iter_mut().zip(now.velocity.iter().zip(v.iter())) {
+            *acceleration = (after - before) / self.step_s;
         }
+        self.effort.copy_from_slice(&now.effort);
         if self.estimator.model == EffortModel::FullDynamics {
             // The joints' own damping lies behind the effort sensor.
             for (i, joint) in self.model.chain.joints().enumerate() {

@@ -66,10 +66,7 @@ impl Chain<'_> {
         if self.trail.len() > MAX_DEPTH {
             return Err(fault(Code::Extends, format!("more than {MAX_DEPTH} scenarios extend each other: {}", self.chain())));
         }
-        let text = source::read(&path).map_err(|read| {
-            let help = read.help.unwrap_or_default();
-            fault(Code::Extends, read.message).help(help)
-        })?;
+        let text = source::read(&path).map_err(|read| fault(Code::Extends, read.message).maybe_help(read.help))?;
         Ok(self.layer(&path, &text))
     }
 

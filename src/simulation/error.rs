@@ -27,6 +27,9 @@ pub enum SimulationError {
         /// The joint that stops it.
         limit: Option<String>,
     },
+    /// Lists of the scenario have another length than the robot's arms, one sentence each.
+    #[error("{}", .0.join("\n"))]
+    JointCounts(Vec<String>),
     /// The world could not be built, or diverged.
     #[error(transparent)]
     World(#[from] WorldError),

@@ -1,10 +1,10 @@
 //! Replay: the arm repeats a demonstration alone; the wrench it then measures becomes the demonstration's force profile.
 
+use super::SimulationError;
 use super::person::Nobody;
 use super::setup::Setup;
 use super::step_loop::StepLoop;
 use super::teaching::Lesson;
-use super::SimulationError;
 use crate::control::{Controller, TrajectoryController};
 
 /// What a replay measured.

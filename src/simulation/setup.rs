@@ -23,6 +23,26 @@ pub struct Setup {
     idle: Option<ArmModel>,
 }
 
+/// Every list of joint values has one number per joint.
+fn check_lengths(settings: &RobotSettings, joints: usize, idle_joints: Option<usize>) -> Result<(), SimulationError> {
+    let impedance = &settings.impedance;
+    let lists = [
+        ("robot.rest_posture_rad", settings.rest_posture_rad.len(), &settings.tool_link, Some(joints)),
+        ("robot.impedance.stiffness_nm_per_rad", impedance.stiffness_nm_per_rad.len(), &settings.tool_link, Some(joints)),
+        ("robot.impedance.damping_nms_per_rad", impedance.damping_nms_per_rad.len(), &settings.tool_link, Some(joints)),
+        ("robot.idle_posture_rad", settings.idle_posture_rad.len(), &settings.idle_tool_link, idle_joints),
+        ("robot.impedance (both arms share it)", impedance.stiffness_nm_per_rad.len(), &settings.idle_tool_link, idle_joints),
+    ];
+    let wrong: Vec<String> = lists
+        .into_iter()
+        .filter_map(|(key, found, link, joints)| {
+            let joints = joints.filter(|joints| *joints != found)?;
+            Some(format!("{key} has {found} numbers, but the arm that ends in `{link}` has {joints} joints: give one number per joint"))
+        })
+        .collect();
+    if wrong.is_empty() { Ok(()) } else { Err(SimulationError::JointCounts(wrong)) }
+}
+
 /// The robot of a file. When it lacks the tool and has Baxter's left hand, the electric gripper is mounted there.
 fn load(path: &Path, settings: &RobotSettings) -> Result<Loaded, SimulationError> {
     let options = LoadOptions { package_directories: settings.package_directories.clone(), ..LoadOptions::default() };
@@ -51,8 +71,14 @@ impl Setup {
         let arm = ArmModel::new(&loaded.model, &settings.tool_link, &settings.rest_posture_rad, experiment.physics.gravity_m_per_s2)?;
         let idle = match settings.idle_posture_rad.is_empty() {
             true => None,
-            false => Some(ArmModel::new(&loaded.model, &settings.idle_tool_link, &settings.idle_posture_rad, experiment.physics.gravity_m_per_s2)?),
+            false => Some(ArmModel::new(
+                &loaded.model,
+                &settings.idle_tool_link,
+                &settings.idle_posture_rad,
+                experiment.physics.gravity_m_per_s2,
+            )?),
         };
+        check_lengths(settings, arm.joints(), idle.as_ref().map(ArmModel::joints))?;
         Ok(Self { experiment: experiment.clone(), robot: loaded.model, warnings: loaded.warnings, arm, idle })
     }
 

@@ -47,7 +47,13 @@ impl<C: Controller> StepLoop<'_, C> {
                 idle.decide(self.world, hold);
             }
             let hand = self.person.act(self.world, self.step_s);
-            publish(&Published { world: self.world, controller: self.controller, observation: &observation, command: &command, hand: applied(&hand) });
+            publish(&Published {
+                world: self.world,
+                controller: self.controller,
+                observation: &observation,
+                command: &command,
+                hand: applied(&hand),
+            });
             act(self.world, &command, &idle.command, hand);
             self.world.advance()?;
         }

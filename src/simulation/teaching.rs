@@ -71,7 +71,15 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         },
     )?;
     let name = demonstration_name(plan, parameters);
-    Ok(Lesson { number, name, parameters: parameters.clone(), start_posture, path: recorder.path, state_hash: world.state_hash(), steps: steps + 1 })
+    Ok(Lesson {
+        number,
+        name,
+        parameters: parameters.clone(),
+        start_posture,
+        path: recorder.path,
+        state_hash: world.state_hash(),
+        steps: steps + 1,
+    })
 }
 
 /// Joins what was led with the wrench (6 numbers per sample) measured when it was replayed.

@@ -16,9 +16,6 @@ use crate::robot::{Joint, JointCommand, JointKind, RobotModel};
 const GRIPPER_STIFFNESS_N_PER_M: f64 = 2000.0;
 const GRIPPER_DAMPING_NS_PER_M: f64 = 60.0;
 
-/// Fraction of a joint's velocity limit from which its drive gives way.
-const VELOCITY_DERATING_START: f64 = 0.95;
-
 /// One moving joint in the engine.
 pub(super) struct Drive {
     /// Its index in the robot model.
@@ -28,6 +25,8 @@ pub(super) struct Drive {
     axis: Vector,
     effort_limit: f64,
     velocity_limit: f64,
+    /// Inertia that the drive moves when the other joints are free, in the first posture (kg m² or kg).
+    inertia: f64,
     passive_damping: f64,
     /// The drive's effort in the last step (N m or N).
     pub effort: f64,
@@ -43,7 +42,13 @@ pub(super) struct Articulation {
 
 impl Articulation {
     /// Builds the joints `joints` of `model` (parents first), starting at `positions` (rad or m), on a fixed body at `world_from_root`.
-    pub(super) fn new(engine: &mut PhysicsWorld, model: &RobotModel, joints: &[usize], positions: &[f64], world_from_root: &Isometry3<f64>) -> Option<Self> {
+    pub(super) fn new(
+        engine: &mut PhysicsWorld,
+        model: &RobotModel,
+        joints: &[usize],
+        positions: &[f64],
+        world_from_root: &Isometry3<f64>,
+    ) -> Option<Self> {
         let root = engine.insert_body(RigidBodyBuilder::fixed().pose(convert::pose(world_from_root)));
         let mut link_of_body = vec![None; model.bodies.len()];
         let mut drives = Vec::with_capacity(joints.len());
@@ -59,11 +64,13 @@ impl Articulation {
         let mut arm = Self { handle: handle?, drives };
         arm.set_joint_properties(engine, model);
         arm.place(engine, positions);
+        arm.measure_inertias(engine, model);
         Some(arm)
     }
 
     fn set_joint_properties(&mut self, engine: &mut PhysicsWorld, model: &RobotModel) {
-        let ids: Vec<usize> = self.drives.iter().map(|d| engine.multibody_joints.rigid_body_link(d.link).map_or(0, |link| link.id)).collect();
+        let ids: Vec<usize> =
+            self.drives.iter().map(|d| engine.multibody_joints.rigid_body_link(d.link).map_or(0, |link| link.id)).collect();
         let Some((multibody, _)) = engine.multibody_joints.get_mut(self.handle) else { return };
         multibody.set_self_contacts_enabled(false);
         for (i, drive) in self.drives.iter().enumerate() {
@@ -101,6 +108,26 @@ impl Articulation {
         multibody.update_rigid_bodies(bodies, true);
     }
 
+    /// Fills the drives' inertias: one over the diagonal of the inverse mass matrix.
+    fn measure_inertias(&mut self, engine: &PhysicsWorld, model: &RobotModel) {
+        let Some((multibody, _)) = engine.multibody_joints.get(self.handle) else { return };
+        let n = multibody.ndofs();
+        let mut mass = DMatrix::<f64>::zeros(n, n);
+        for (i, drive) in self.drives.iter().enumerate() {
+            let Some(link) = engine.bodies.get(drive.link) else { return };
+            let body = &model.bodies[model.joints[drive.joint].child_body];
+            let rotation = convert::pose_back(link.position()).rotation.to_rotation_matrix();
+            let inertia = rotation * body.inertia * rotation.transpose();
+            let jacobian = multibody.body_jacobian(i + 1);
+            let (linear, angular) = (jacobian.rows(0, 3), jacobian.rows(3, 3));
+            mass += linear.transpose() * linear * body.mass_kg + angular.transpose() * inertia * angular;
+        }
+        let Some(inverse) = mass.try_inverse() else { return };
+        for (i, drive) in self.drives.iter_mut().enumerate() {
+            drive.inertia = 1.0 / inverse[(i, i)];
+        }
+    }
+
     /// Sets the dry friction of the joint of degree of freedom `dof` (N m).
     pub(super) fn set_friction(&mut self, engine: &mut PhysicsWorld, dof: usize, friction_nm: f64) {
         if let Some((multibody, _)) = engine.multibody_joints.get_mut(self.handle) {
@@ -128,6 +155,7 @@ impl Articulation {
 
     /// Applies the commanded torques within the drives' limits of effort and velocity. Clears all forces of the last step.
     pub(super) fn act(&mut self, engine: &mut PhysicsWorld) {
+        let step_s = engine.integration_parameters.dt;
         let PhysicsWorld { bodies, multibody_joints, .. } = engine;
         let Some((multibody, _)) = multibody_joints.get_mut(self.handle) else { return };
         for drive in &self.drives {
@@ -140,7 +168,7 @@ impl Articulation {
             let (torque, damping) = drive.command;
             multibody.damping_mut()[i] = drive.passive_damping + damping;
             let v = multibody.generalized_velocity()[i];
-            drive.effort = drive.limited(torque - damping * v, v) + damping * v;
+            drive.effort = drive.limited(torque - damping * v, v, step_s) + damping * v;
             let Some(rotation) = bodies.get(drive.link).map(|body| *body.rotation()) else { continue };
             let torque = rotation * drive.axis * drive.effort;
             if let Some(body) = bodies.get_mut(drive.link) {
@@ -191,31 +219,24 @@ impl Drive {
             axis: if joint.kind == JointKind::Prismatic { Vector::ZERO } else { convert::vector(&joint.axis) },
             effort_limit: joint.effort_limit,
             velocity_limit: joint.velocity_limit,
+            inertia: f64::INFINITY,
             passive_damping: joint.damping,
             effort: 0.0,
             command: (0.0, 0.0),
         }
     }
 
-    /// `torque` within the effort limit; near the velocity limit a drive no longer pushes, and beyond it brakes.
-    fn limited(&self, torque: f64, velocity: f64) -> f64 {
-        let torque = torque.clamp(-self.effort_limit, self.effort_limit);
-        let start = VELOCITY_DERATING_START * self.velocity_limit;
-        let room = (self.velocity_limit - velocity.abs()) / (self.velocity_limit - start);
-        if room < 0.0 {
-            return -velocity.signum() * self.effort_limit * (-room).min(1.0);
-        }
-        if torque * velocity > 0.0 { torque * room.min(1.0) } else { torque }
+    /// `torque` within the effort limit, and no more than takes the joint to its velocity limit within the step; beyond that limit it brakes.
+    fn limited(&self, torque: f64, velocity: f64, step_s: f64) -> f64 {
+        let push = |limit: f64| (limit - velocity) * self.inertia / step_s;
+        let within = torque.min(push(self.velocity_limit)).max(push(-self.velocity_limit));
+        within.clamp(-self.effort_limit, self.effort_limit)
     }
 }
 
 fn link_body(model: &RobotModel, body: usize) -> RigidBodyBuilder {
     let body = &model.bodies[body];
-    let mass = MassProperties::with_inertia_matrix(
-        convert::vector(&body.center_of_mass),
-        body.mass_kg,
-        convert::matrix(&body.inertia),
-    );
+    let mass = MassProperties::with_inertia_matrix(convert::vector(&body.center_of_mass), body.mass_kg, convert::matrix(&body.inertia));
     RigidBodyBuilder::dynamic().additional_mass_properties(mass).can_sleep(false)
 }
 

@@ -6,7 +6,7 @@ use rapier3d_f64::parry::query;
 use rapier3d_f64::prelude::{Aabb, Collider, PhysicsWorld};
 
 use super::convert;
-use super::parts::{Owner, Parts};
+use super::parts::{Limb, Owner, Parts};
 
 /// The smallest distance so far between the arm and one object.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +43,7 @@ impl ClearanceBook {
         let mut book = Self { smallest: Vec::new(), arm: Vec::new(), movable: Vec::new(), fixed: vec![Vec::new(); objects.len()], objects };
         for (handle, collider) in engine.colliders.iter() {
             match parts.of(collider.user_data).map(|(_, part)| part.owner) {
-                Some(Owner::Robot { working: true, .. }) => book.arm.push(handle),
+                Some(Owner::Robot { limb: Limb::Working, .. }) => book.arm.push(handle),
                 Some(Owner::Object(object)) if movable[object] => book.movable.push((object, handle)),
                 Some(Owner::Object(object)) => {
                     if let Some(place) = book.objects.iter().position(|&o| o == object) {
@@ -56,14 +56,22 @@ impl ClearanceBook {
         book.smallest = book
             .objects
             .iter()
-            .map(|&o| Clearance { a: String::new(), b: names[o].clone(), min_distance_m: f64::INFINITY, time_s: 0.0, point_a: Point3::origin(), point_b: Point3::origin() })
+            .map(|&o| Clearance {
+                a: String::new(),
+                b: names[o].clone(),
+                min_distance_m: f64::INFINITY,
+                time_s: 0.0,
+                point_a: Point3::origin(),
+                point_b: Point3::origin(),
+            })
             .collect();
         book
     }
 
     /// Measures now. `held` are the objects in the gripper.
     pub(super) fn record(&mut self, engine: &PhysicsWorld, parts: &Parts, held: &[usize], time_s: f64) {
-        let moving: Vec<_> = self.arm.iter().copied().chain(self.movable.iter().filter(|(o, _)| held.contains(o)).map(|(_, c)| *c)).collect();
+        let moving: Vec<_> =
+            self.arm.iter().copied().chain(self.movable.iter().filter(|(o, _)| held.contains(o)).map(|(_, c)| *c)).collect();
         for (place, fixed) in self.fixed.iter().enumerate() {
             for (a, b) in moving.iter().flat_map(|&a| fixed.iter().map(move |&b| (a, b))) {
                 let (Some(a), Some(b)) = (engine.colliders.get(a), engine.colliders.get(b)) else { continue };

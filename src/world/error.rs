@@ -21,6 +21,12 @@ pub enum WorldError {
         /// Why.
         reason: String,
     },
+    /// Things stand inside each other before the first step.
+    #[error("at the start {pairs}: move the objects or the arm apart")]
+    Overlap {
+        /// Which, and how deep.
+        pairs: String,
+    },
     /// A body's state left the finite numbers.
     #[error("the simulation diverged at step {step} ({time_s:.3} s): body {body} is no longer finite; try a smaller `step_s`")]
     Diverged {

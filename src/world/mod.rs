@@ -3,11 +3,12 @@
 //! Frame: the robot's base frame (x forward, y left, z up); SI units. This is the only room that knows the physics engine.
 
 mod articulation;
-mod contacts;
 mod clearance;
+mod contacts;
 mod convert;
 mod error;
 mod object;
+mod overlap;
 mod parts;
 mod physics;
 mod robot_body;

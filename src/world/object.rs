@@ -144,5 +144,8 @@ impl Object {
 
 /// The height on which everything but tables stands (m, world): the top of the first table, or the floor at 0 without one.
 pub fn support_height_m(objects: &[Object]) -> f64 {
-    objects.iter().find_map(|object| if let ObjectKind::Table { top_height_m, .. } = object.kind { Some(top_height_m) } else { None }).unwrap_or(0.0)
+    objects
+        .iter()
+        .find_map(|object| if let ObjectKind::Table { top_height_m, .. } = object.kind { Some(top_height_m) } else { None })
+        .unwrap_or(0.0)
 }

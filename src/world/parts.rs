@@ -9,11 +9,22 @@ pub(crate) enum Owner {
         body: usize,
         /// A finger of the gripper.
         finger: bool,
-        /// A link of the arm that works.
-        working: bool,
+        /// Which part of the robot it belongs to.
+        limb: Limb,
     },
     /// An object of the scene.
     Object(usize),
+}
+
+/// The parts of the robot that move as one tree, or not at all. Links of one limb are never checked against each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Limb {
+    /// Torso, pedestal, head.
+    Fixed,
+    /// The arm that works.
+    Working,
+    /// The arm that holds still.
+    Idle,
 }
 
 /// A part that can be touched.

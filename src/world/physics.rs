@@ -49,7 +49,11 @@ pub(super) fn step(engine: &mut PhysicsWorld, step_number: u64) -> Result<(), Wo
     engine.step();
     match engine.quarantine().bodies().first() {
         None => Ok(()),
-        Some(handle) => Err(WorldError::Diverged { step: step_number, time_s: step_number as f64 * engine.integration_parameters.dt, body: format!("{handle:?}") }),
+        Some(handle) => Err(WorldError::Diverged {
+            step: step_number,
+            time_s: step_number as f64 * engine.integration_parameters.dt,
+            body: format!("{handle:?}"),
+        }),
     }
 }
 

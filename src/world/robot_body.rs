@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, Isometry3, Translation3, UnitQuaternion, Vector3};
 use rapier3d_f64::prelude::{ColliderBuilder, MassProperties, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape, Vector};
 
 use super::articulation::Articulation;
-use super::parts::{Owner, Part, Parts};
+use super::parts::{Limb, Owner, Part, Parts};
 use super::physics::Layer;
 use super::{WorldError, convert};
 use crate::robot::{JointKind, RobotModel, Shape};
@@ -143,8 +143,13 @@ impl RobotBody {
                 Some(depth) if depth < PROXIMAL_LINKS => Layer::ArmProximal,
                 Some(_) => Layer::ArmDistal,
             };
+            let limb = match (working, idle) {
+                (Some(_), _) => Limb::Working,
+                (None, Some(_)) => Limb::Idle,
+                (None, None) => Limb::Fixed,
+            };
             for geometry in &body.collisions {
-                let owner = Owner::Robot { body: index, finger, working: working.is_some() };
+                let owner = Owner::Robot { body: index, finger, limb };
                 let id = parts.add(Part { name: geometry.link.clone(), owner });
                 let (shape, turn) = engine_shape(&geometry.shape, &geometry.link)?;
                 let collider = ColliderBuilder::new(shape)
@@ -162,7 +167,11 @@ impl RobotBody {
     /// `world_from_body` of every model body.
     pub(super) fn poses(&self, engine: &PhysicsWorld, poses: &mut Vec<Isometry3<f64>>) {
         poses.clear();
-        poses.extend(self.bodies.iter().map(|&handle| engine.bodies.get(handle).map_or_else(Isometry3::identity, |b| convert::pose_back(b.position()))));
+        poses.extend(
+            self.bodies
+                .iter()
+                .map(|&handle| engine.bodies.get(handle).map_or_else(Isometry3::identity, |b| convert::pose_back(b.position()))),
+        );
     }
 
     /// The engine's own mass matrix of the working tree.

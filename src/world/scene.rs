@@ -35,9 +35,15 @@ pub fn object_parts(object: &Object, parameters: &Parameters) -> Vec<ObjectPart>
             let (h, w) = (base_height_m.resolve(parameters), aperture_m + 2.0 * post_width_m);
             let (x, z) = ((aperture_m + post_width_m) / 2.0, h + post_height_m / 2.0);
             let post = [*post_width_m, *thickness_m, *post_height_m];
-            vec![slab("base", [0.0, 0.0, h / 2.0], [w, *thickness_m, h]), slab("near_post", [-x, 0.0, z], post), slab("far_post", [x, 0.0, z], post)]
+            vec![
+                slab("base", [0.0, 0.0, h / 2.0], [w, *thickness_m, h]),
+                slab("near_post", [-x, 0.0, z], post),
+                slab("far_post", [x, 0.0, z], post),
+            ]
         }
-        ObjectKind::Ball { radius_m, .. } => vec![ObjectPart { name: "", object_from_part: Isometry3::identity(), shape: PartShape::Ball(*radius_m) }],
+        ObjectKind::Ball { radius_m, .. } => {
+            vec![ObjectPart { name: "", object_from_part: Isometry3::identity(), shape: PartShape::Ball(*radius_m) }]
+        }
         ObjectKind::Box { size_m, .. } => vec![slab("", [0.0; 3], (*size_m).into())],
         ObjectKind::Basket { inner_size_m, wall_height_m, wall_thickness_m } => {
             let (t, h) = (*wall_thickness_m, *wall_height_m);
@@ -57,7 +63,11 @@ pub fn object_parts(object: &Object, parameters: &Parameters) -> Vec<ObjectPart>
 const TABLE_THICKNESS_M: f64 = 0.04;
 
 fn slab(name: &'static str, center: [f64; 3], size: [f64; 3]) -> ObjectPart {
-    ObjectPart { name, object_from_part: Isometry3::translation(center[0], center[1], center[2]), shape: PartShape::Box(Vector3::from(size) / 2.0) }
+    ObjectPart {
+        name,
+        object_from_part: Isometry3::translation(center[0], center[1], center[2]),
+        shape: PartShape::Box(Vector3::from(size) / 2.0),
+    }
 }
 
 /// Where the object's frame starts (`world_from_object`).

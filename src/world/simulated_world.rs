@@ -10,7 +10,9 @@ use super::clearance::ClearanceBook;
 use super::contacts::ContactBook;
 use super::parts::Parts;
 use super::robot_body::{Limbs, RobotBody};
-use super::{Clearance, ContactEpisode, GraspState, HandWrench, Object, ObjectKind, Parameters, PhysicsSettings, WorldError, convert, physics, scene};
+use super::{
+    Clearance, ContactEpisode, GraspState, HandWrench, Object, ObjectKind, Parameters, PhysicsSettings, WorldError, convert, overlap, physics, scene,
+};
 use crate::robot::{JointCommand, RobotModel};
 
 /// What a world is made of.
@@ -46,7 +48,7 @@ pub struct World {
     limbs: Limbs,
     objects: Vec<RigidBodyHandle>,
     movable: Vec<bool>,
-    finger_range: Option<(f64, f64)>,
+    finger_range: FingerRange,
     contacts: ContactBook,
     clearance: ClearanceBook,
     clearance_every: u64,
@@ -98,6 +100,7 @@ impl World {
         };
         world.command_gripper(1.0);
         world.read_joints();
+        overlap::refuse(&world.engine, &world.parts)?;
         Ok(world)
     }
 
@@ -311,8 +314,11 @@ fn state_of(body: &RigidBody) -> [f64; 13] {
     [p.x, p.y, p.z, r.x, r.y, r.z, r.w, v.x, v.y, v.z, w.x, w.y, w.z]
 }
 
-/// Positions of the working tree at the start: the arm's posture and an open gripper; and the leading finger's range (closed, open).
-fn starting_positions(model: &RobotModel, limbs: &Limbs, posture: &[f64]) -> Result<(Vec<f64>, Option<(f64, f64)>), WorldError> {
+/// Range of a gripper's leading finger: where it is closed and where it is open (m).
+type FingerRange = Option<(f64, f64)>;
+
+/// Positions of the working tree at the start (the arm's posture and an open gripper), and the gripper's range.
+fn starting_positions(model: &RobotModel, limbs: &Limbs, posture: &[f64]) -> Result<(Vec<f64>, FingerRange), WorldError> {
     if posture.len() != limbs.arm.len() {
         return Err(WorldError::Robot {
             robot: model.name.clone(),

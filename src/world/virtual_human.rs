@@ -102,8 +102,8 @@ impl Hand {
         let offset = wanted.pose.translation.vector + self.correction - grasp.pose.translation.vector;
         let force = h.stiffness_n_per_m * offset + h.damping_ns_per_m * (wanted.linear_velocity - grasp.linear_velocity);
         let turn = (wanted.pose.rotation * grasp.pose.rotation.inverse()).scaled_axis();
-        let moment =
-            h.rotational_stiffness_nm_per_rad * turn + h.rotational_damping_nms_per_rad * (wanted.angular_velocity - grasp.angular_velocity);
+        let moment = h.rotational_stiffness_nm_per_rad * turn
+            + h.rotational_damping_nms_per_rad * (wanted.angular_velocity - grasp.angular_velocity);
         HandWrench { point: point_of(grasp), force: capped(force, force_max_n), moment: capped(moment, h.moment_max_nm) }
     }
 

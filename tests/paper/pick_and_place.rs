@@ -92,6 +92,70 @@ fn heights_outside_the_taught_range_pass_both_apertures() {
         for name in ["blocks_untouched", "aperture_1_clear", "aperture_2_clear"] {
             assert!(passed(&criteria, name), "{name} at {height_m} m: {}", value(&criteria, name));
         }
-        println!("{height_m} m: apertures {:.1} and {:.1} mm", value(&criteria, "aperture_1_clear") * 1e3, value(&criteria, "aperture_2_clear") * 1e3);
+        println!(
+            "{height_m} m: apertures {:.1} and {:.1} mm",
+            value(&criteria, "aperture_1_clear") * 1e3,
+            value(&criteria, "aperture_2_clear") * 1e3
+        );
+    }
+}
+
+/// What came of a shipped counterfactual, executed with ten seeds. `place` gives the toy's lateral place for each.
+fn ten_seeds(name: &str, learned: &Learned, place: impl Fn(u64) -> f64 + Sync) -> Vec<(f64, Vec<Criterion>)> {
+    let scenario = scenario(name);
+    let height_m = scenario.experiment.parameters.get("block_height_m").expect("a height");
+    (0..10u64).into_par_iter().map(|k| (place(k), executed(&scenario, learned, height_m, place(k), 2000 + k).1)).collect()
+}
+
+fn five_cm_aside(k: u64) -> f64 {
+    if k.is_multiple_of(2) { 0.05 } else { -0.05 }
+}
+
+fn all_as_expected(trials: &[(f64, Vec<Criterion>)]) {
+    for (lateral_m, criteria) in trials {
+        let missed: Vec<_> = criteria.iter().filter(|c| !c.as_expected()).map(|c| (c.name.as_str(), c.value)).collect();
+        assert!(missed.is_empty(), "toy at {lateral_m:+} m: {missed:?}");
+    }
+}
+
+#[test]
+fn without_the_person_the_toy_is_grasped_only_where_the_mean_path_meets_it() {
+    let learned = &taught().1;
+    all_as_expected(&ten_seeds("pick_and_place_no_human.toml", learned, five_cm_aside));
+    // From one side of the taught range to the other: a grasp needs the toy to lie under the gripper.
+    for (lateral_m, criteria) in ten_seeds("pick_and_place_no_human.toml", learned, |k| -0.054 + 0.012 * k as f64) {
+        let (away, grasped) = (value(&criteria, "gripper_over_toy"), passed(&criteria, "toy_in_basket"));
+        println!("toy at {lateral_m:+.3} m: gripper {:.1} mm away, {}", away * 1e3, if grasped { "grasped" } else { "missed" });
+        assert!(if away < 0.012 { grasped } else { away < 0.030 || !grasped }, "{away} m away, grasped: {grasped}");
+    }
+}
+
+#[test]
+fn a_push_in_a_stiff_phase_moves_the_plan_by_exactly_nothing_and_the_gripper_by_less_than_15_mm() {
+    let trials = ten_seeds("pick_and_place_stiff_push.toml", &taught().1, five_cm_aside);
+    all_as_expected(&trials);
+    assert!(trials.iter().all(|(_, criteria)| value(criteria, "plan_unmoved") == 0.0));
+    let worst = trials.iter().map(|(_, criteria)| value(criteria, "gripper_unmoved")).fold(0.0, f64::max);
+    println!("gripper moves by at most {:.1} mm", worst * 1e3);
+}
+
+#[test]
+fn without_the_coupling_the_person_does_not_bring_the_gripper_within_2_cm() {
+    let trials = ten_seeds("pick_and_place_uncoupled.toml", &taught().1, five_cm_aside);
+    all_as_expected(&trials);
+    let nearest = trials.iter().map(|(_, criteria)| value(criteria, "gripper_over_toy")).fold(f64::INFINITY, f64::min);
+    println!("nearest {:.1} mm", nearest * 1e3);
+    assert!(nearest > 0.02);
+}
+
+#[test]
+fn the_lwr_baseline_touches_a_block_or_misses_the_toy() {
+    let scenario = scenario("pick_and_place_lwr.toml");
+    let learned = learning::learn(&taught().0, &scenario.experiment.learning, 0).expect("a baseline");
+    all_as_expected(&ten_seeds("pick_and_place_lwr.toml", &learned, five_cm_aside));
+    // At the lowest blocks it flies too high to touch them and misses the toy beside its one path.
+    let trials: Vec<_> = (0..10u64).into_par_iter().map(|k| executed(&scenario, &learned, 0.17, five_cm_aside(k), 2000 + k).1).collect();
+    for criteria in &trials {
+        assert!(!passed(criteria, "blocks_untouched") || !passed(criteria, "toy_in_basket"));
     }
 }

@@ -67,7 +67,13 @@ impl Rig {
 }
 
 fn perfect() -> SensorSettings {
-    SensorSettings { effort_noise_nm: 0.0, effort_bias_nm: 0.0, dry_friction_nm: 0.0, model: EffortModel::FullDynamics, filter_cutoff_hz: f64::INFINITY }
+    SensorSettings {
+        effort_noise_nm: 0.0,
+        effort_bias_nm: 0.0,
+        dry_friction_nm: 0.0,
+        model: EffortModel::FullDynamics,
+        filter_cutoff_hz: f64::INFINITY,
+    }
 }
 
 #[test]

@@ -1,13 +1,11 @@
 //! A short run that was never simulated: every number is known, and everything that can happen happens once.
 
-use std::path::Path;
 use std::sync::LazyLock;
 
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::learning::phmm::PhmmSettings;
 use cpdmp::learning::{ExecutionSettings, LearningSettings, ShapingKind, generate, learn};
-use cpdmp::scenario::{LoadOptions, Scenario};
-use cpdmp::simulation::{AppliedForce, Experiment, FinalObject, RunOutcome, StepRecord};
+use cpdmp::simulation::{AppliedForce, FinalObject, RunOutcome, StepRecord};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3, Vector6};
 
 use crate::support::baxter;
@@ -21,12 +19,6 @@ pub const COMPLIES: std::ops::Range<usize> = 40..80;
 pub const HOLDS: std::ops::Range<usize> = 45..70;
 /// See [`COMPLIES`].
 pub const CLOSED: std::ops::Range<usize> = 60..110;
-
-/// The shipped experiment.
-pub fn experiment() -> Experiment {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/pick_and_place.toml");
-    Scenario::load(&path, &LoadOptions::default()).expect("the shipped scenario is valid").experiment
-}
 
 /// The outcome of the made-up run.
 pub fn outcome() -> RunOutcome {

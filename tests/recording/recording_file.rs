@@ -8,14 +8,21 @@ use std::path::{Path, PathBuf};
 
 use cpdmp::recording::entity_path::{self, ENTITIES, Entity, TIMELINES};
 use cpdmp::recording::{RecordingError, write_recording};
-use cpdmp::simulation::RunOutcome;
+use cpdmp::scenario::{LoadOptions, Scenario};
+use cpdmp::simulation::{Experiment, RunOutcome};
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
 use rerun::log::Chunk;
 use rerun::{ComponentDescriptor, EntityPath};
 use tempfile::TempDir;
 
-use super::made_up_run::{CLOSED, COMPLIES, HOLDS, experiment, outcome, outcome_of_the_baseline};
+use super::made_up_run::{CLOSED, COMPLIES, HOLDS, outcome, outcome_of_the_baseline};
+
+/// The shipped experiment.
+fn experiment() -> Experiment {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/pick_and_place.toml");
+    Scenario::load(&path, &LoadOptions::default()).expect("the shipped scenario is valid").experiment
+}
 
 fn written(outcome: &RunOutcome) -> (TempDir, PathBuf) {
     let folder = TempDir::new().expect("a folder can be made");

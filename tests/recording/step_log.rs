@@ -18,6 +18,9 @@ fn written(outcome: &RunOutcome) -> (TempDir, PathBuf) {
     (folder, path)
 }
 
+/// How a record gives the value of a column.
+type Value = fn(&StepRecord) -> f64;
+
 /// The values of a column, as bits.
 fn column(path: &Path, name: &str) -> Vec<u64> {
     let reader = SerializedFileReader::new(File::open(path).expect("the log is there")).expect("it is Parquet");
@@ -39,7 +42,7 @@ fn every_number_comes_back_bit_for_bit() {
     outcome.steps[3].expected_force.x = f64::NAN;
     outcome.steps[4].expected_force.x = -0.0;
     let (_folder, path) = written(&outcome);
-    let expected: [(&str, fn(&StepRecord) -> f64); 27] = [
+    let expected: [(&str, Value); 27] = [
         ("time_s", |r| r.time_s),
         ("q1_rad", |r| r.joint_position[0]),
         ("q7_rad", |r| r.joint_position[6]),

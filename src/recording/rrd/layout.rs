@@ -73,7 +73,7 @@ impl Views {
         let floor = rerun::components::Plane3D::new([0.0, 0.0, 1.0], floor_m as f32);
         self.properties.set(&view, "LineGrid3D", LineGrid3D::new().with_spacing(0.25).with_plane(floor));
         let until_now = TimeRange { start: TimeRangeBoundary::Infinite, end: TimeRangeBoundary::AT_CURSOR };
-        let ranges = TIMELINES.map(|timeline| VisibleTimeRange { timeline: timeline.name.into(), range: until_now.clone() });
+        let ranges = TIMELINES.map(|timeline| VisibleTimeRange { timeline: timeline.name.into(), range: until_now });
         self.properties.set_for_entity(&view, &EXECUTED_PATH.path(), VisibleTimeRanges::new(ranges));
         Ok(view)
     }

@@ -27,8 +27,8 @@ pub(super) fn log_paths(recorder: &Recorder, outcome: &RunOutcome, duration_s: f
         if let Some(points) = path.points() {
             recorder.always(TAUGHT_PATH.of(&[name]), &strip(points, palette::TAUGHT, 0.0012))?;
         }
-        for axis in 0..3 {
-            let entity = TAUGHT_MOTION.of(&[AXES[axis], name]);
+        for (axis, axis_name) in AXES.iter().enumerate() {
+            let entity = TAUGHT_MOTION.of(&[axis_name, name]);
             path.log(recorder, &entity, axis, &style("taught", palette::TAUGHT, 0.8))?;
         }
     }
@@ -36,8 +36,8 @@ pub(super) fn log_paths(recorder: &Recorder, outcome: &RunOutcome, duration_s: f
     if let Some(points) = planned.points() {
         recorder.always(PLANNED_PATH.path(), &strip(points, palette::PLANNED, 0.003))?;
     }
-    for axis in 0..3 {
-        planned.log(recorder, &PLANNED_MOTION.of(&[AXES[axis]]), axis, &style("planned", palette::PLANNED, 2.0))?;
+    for (axis, name) in AXES.iter().enumerate() {
+        planned.log(recorder, &PLANNED_MOTION.of(&[name]), axis, &style("planned", palette::PLANNED, 2.0))?;
     }
     log_executed(recorder, &outcome.steps)
 }

@@ -1,0 +1,53 @@
+//! Refuses a scene in which something starts inside something else: the engine would throw it out.
+
+use rapier3d_f64::parry::bounding_volume::BoundingVolume;
+use rapier3d_f64::parry::query;
+use rapier3d_f64::prelude::{Collider, PhysicsWorld};
+
+use super::WorldError;
+use super::parts::{Owner, Part, Parts};
+
+/// Penetration from which a scene is refused (m): more than rounding in a file's numbers.
+const START_OVERLAP_M: f64 = 1e-4;
+
+/// Looks for overlaps among all parts that may touch each other.
+///
+/// # Errors
+/// When there are any: all of them, with their depths.
+pub(super) fn refuse(engine: &PhysicsWorld, parts: &Parts) -> Result<(), WorldError> {
+    let all: Vec<(&Collider, &Part)> =
+        engine.colliders.iter().filter_map(|(_, collider)| Some((collider, parts.of(collider.user_data)?.1))).collect();
+    let mut pairs = Vec::new();
+    for (i, (a, part_a)) in all.iter().enumerate() {
+        for (b, part_b) in &all[i + 1..] {
+            if together(part_a.owner, part_b.owner) || !a.collision_groups().test(b.collision_groups()) {
+                continue;
+            }
+            let depth = depth(a, b);
+            if depth > START_OVERLAP_M {
+                pairs.push(format!("`{}` is {:.1} mm inside `{}`", part_a.name, depth * 1e3, part_b.name));
+            }
+        }
+    }
+    if pairs.is_empty() { Ok(()) } else { Err(WorldError::Overlap { pairs: pairs.join(", ") }) }
+}
+
+/// Whether the parts belong to one limb or one object.
+fn together(a: Owner, b: Owner) -> bool {
+    match (a, b) {
+        (Owner::Robot { limb: a, .. }, Owner::Robot { limb: b, .. }) => a == b,
+        (Owner::Object(a), Owner::Object(b)) => a == b,
+        _ => false,
+    }
+}
+
+/// How deep one is in the other (m); 0 when they are apart.
+fn depth(a: &Collider, b: &Collider) -> f64 {
+    if !a.compute_aabb().intersects(&b.compute_aabb()) {
+        return 0.0;
+    }
+    match query::contact(a.position(), a.shape(), b.position(), b.shape(), 0.0) {
+        Ok(Some(contact)) => -contact.dist,
+        _ => 0.0,
+    }
+}
