@@ -151,7 +151,7 @@ impl RobotBody {
             for geometry in &body.collisions {
                 let owner = Owner::Robot { body: index, finger, limb };
                 let id = parts.add(Part { name: geometry.link.clone(), owner });
-                let (shape, turn) = engine_shape(&geometry.shape, &geometry.link)?;
+                let (shape, turn) = engine_shape(&geometry.shape, &geometry.link, limb)?;
                 let collider = ColliderBuilder::new(shape)
                     .position(convert::pose(&(geometry.body_from_geometry * turn)))
                     .mass_properties(MassProperties::new(Vector::ZERO, 0.0, Vector::ZERO))
@@ -194,8 +194,9 @@ fn home_poses(model: &RobotModel) -> Vec<Isometry3<f64>> {
     poses
 }
 
-/// The engine's shape, and how it lies in the URDF's frame (the engine's cylinders stand along y).
-fn engine_shape(shape: &Shape, link: &str) -> Result<(SharedShape, Isometry3<f64>), WorldError> {
+/// The engine's shape, and how it lies in the URDF's frame (the engine's cylinders stand along y). A mesh that does not move keeps its
+/// hollows; one that moves is its convex hull, which has an inside.
+fn engine_shape(shape: &Shape, link: &str, limb: Limb) -> Result<(SharedShape, Isometry3<f64>), WorldError> {
     let upright = Isometry3::identity();
     Ok(match shape {
         Shape::Box { half_extents } => (SharedShape::cuboid(half_extents.x, half_extents.y, half_extents.z), upright),
@@ -204,11 +205,14 @@ fn engine_shape(shape: &Shape, link: &str) -> Result<(SharedShape, Isometry3<f64
             let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2);
             (SharedShape::cylinder(*half_length, *radius), Isometry3::from_parts(Translation3::identity(), turn))
         }
-        Shape::Mesh { vertices, .. } => {
+        Shape::Mesh { vertices, triangles } => {
             let points: Vec<Vector> = vertices.iter().map(|v| Vector::new(v[0], v[1], v[2])).collect();
-            let hull = SharedShape::convex_hull(&points)
-                .ok_or_else(|| WorldError::Geometry { part: link.into(), reason: "its mesh has no volume".into() })?;
-            (hull, upright)
+            let shape = match limb {
+                Limb::Fixed => SharedShape::trimesh(points, triangles.clone()).ok(),
+                Limb::Working | Limb::Idle => SharedShape::convex_hull(&points),
+            };
+            let shape = shape.ok_or_else(|| WorldError::Geometry { part: link.into(), reason: "its mesh has no volume".into() })?;
+            (shape, upright)
         }
     })
 }

@@ -11,7 +11,8 @@ use super::contacts::ContactBook;
 use super::parts::Parts;
 use super::robot_body::{Limbs, RobotBody};
 use super::{
-    Clearance, ContactEpisode, GraspState, HandWrench, Object, ObjectKind, Parameters, PhysicsSettings, WorldError, convert, overlap, physics, scene,
+    Clearance, ContactEpisode, GraspState, HandWrench, Object, ObjectKind, Parameters, PhysicsSettings, WorldError, convert, overlap,
+    physics, scene,
 };
 use crate::robot::{JointCommand, RobotModel};
 

@@ -25,18 +25,22 @@ const SMALLEST_ARROW_N: f64 = 0.25;
 /// Colours of the three axes, as rerun and most robot tools draw them.
 const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLANNED];
 
-/// Logs all forces and what answers them.
-pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord]) -> Result<(), Fault> {
+/// Logs all forces and what answers them; `expects` tells whether the skill knows what force to expect.
+pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], expects: bool) -> Result<(), Fault> {
     let tool = |r: &StepRecord| Point3::from(r.tool.translation.vector);
     let measured = |r: &StepRecord| Vector3::from(r.wrench.fixed_rows::<3>(0));
     let arrows = Arrows { recorder, records };
     arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (tool(r), measured(r)))?;
-    arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r), r.expected_force))?;
+    if expects {
+        arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r), r.expected_force))?;
+    }
     arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point + to_surface(&r.human.force), r.human.force))?;
     let plot = Plot { recorder, records };
     for (i, axis) in AXES.iter().enumerate() {
         plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;
-        plot.log(EXPECTED.of(&[axis]), "expected", palette::EXPECTED, |r| r.expected_force[i])?;
+        if expects {
+            plot.log(EXPECTED.of(&[axis]), "expected", palette::EXPECTED, |r| r.expected_force[i])?;
+        }
         plot.log(PERSON.of(&[axis]), "person", palette::PERSON, |r| r.human.force[i])?;
         plot.log(TORQUE.of(&[axis]), axis, AXIS_COLORS[i], |r| r.wrench[3 + i])?;
         plot.log(COUPLING.of(&[axis]), axis, AXIS_COLORS[i], |r| r.coupling_displacement[i])?;

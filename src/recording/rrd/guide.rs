@@ -29,9 +29,9 @@ fn page(experiment: &Experiment, outcome: &RunOutcome) -> String {
 const READING: &str = "\
 A person taught the arm by leading it (grey paths). From the demonstrations the arm learned a movement of states. Where the demonstrations
 agree, a state is **stiff** (green): the arm holds its way. Where they disagree, it **complies** (purple): the arm yields to forces, and a
-person may push it to where it should go (red arrow). Ellipsoids and ellipses show how far the demonstrations of one setting disagree in
+person may push it to where it should go (vermilion arrow). Ellipsoids and ellipses show how far the demonstrations of one setting disagree in
 each state, at two standard deviations.
 
 - grey: taught; blue: planned, what the skill generates for this setting without any force; orange: executed
-- dark blue arrow and line: force measured at the tool; yellow: force that the skill expects; red: force of the person
+- dark blue arrow and line: force measured at the tool; yellow: force that the skill expects; vermilion: force of the person
 - the ellipsoid with the thick lines is that of the active state, which is also named beside the scene";

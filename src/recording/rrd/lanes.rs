@@ -33,8 +33,8 @@ pub(super) fn beta_color(beta: f64) -> Color {
     }
 }
 
-/// Logs all lanes.
-pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord]) -> Result<(), Fault> {
+/// Logs all lanes; that of the states only for a skill that has some.
+pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], has_states: bool) -> Result<(), Fault> {
     let lane = |entity: &Entity, value: &dyn Fn(&StepRecord) -> String, color: &dyn Fn(&StepRecord) -> Color| {
         let (mut times, mut values) = (Vec::new(), Vec::new());
         let mut legend: Vec<(String, Color)> = Vec::new();
@@ -58,7 +58,9 @@ pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord]) -> Result<(
     let pick = |yes: bool, on: &str, off: &str| if yes { on.to_owned() } else { off.to_owned() };
     let tint = |yes: bool, on: Color| if yes { on } else { palette::IDLE };
     lane(&COMPLIANCE_LANE, &|r| beta_in_words(r.beta).to_owned(), &|r| beta_color(r.beta))?;
-    lane(&STATE_LANE, &|r| r.state.to_string(), &|r| shade(beta_color(r.beta), r.state))?;
+    if has_states {
+        lane(&STATE_LANE, &|r| r.state.to_string(), &|r| shade(beta_color(r.beta), r.state))?;
+    }
     lane(&PERSON_LANE, &|r| pick(holds(r), "holds", "hands off"), &|r| tint(holds(r), palette::PERSON))?;
     lane(&GRIPPER_LANE, &|r| pick(closed(r), "closed", "open"), &|r| tint(closed(r), palette::EXECUTED))
 }

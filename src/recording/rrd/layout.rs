@@ -25,7 +25,7 @@ const TARGET_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(-0.2, -0.01, 0.14);
 const EYE_FROM_TARGET_M: Vector3<f64> = Vector3::new(1.10, 0.69, 0.32);
 
 /// Titles stand where a legend cannot cover anything.
-const SCENE_TITLE: &str = "Scene: taught grey, planned blue, executed orange; states stiff green, complying purple; person red";
+const SCENE_TITLE: &str = "Scene: taught grey, planned blue, executed orange; states stiff green, complying purple; person vermilion";
 
 /// The layout with the properties of its views. `middle` is that of the way of the tool, `floor_m` the height of the floor (m, world).
 pub(super) fn layout(middle: Vector3<f64>, floor_m: f64) -> Result<(Blueprint, Properties), Fault> {

@@ -32,7 +32,7 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     let name = format!("{}, seed {}", experiment.name, experiment.seed);
     // Equal identities are shown as one recording: runs that differ must not share one.
     let identity = format!("{}-{}-{:016x}", experiment.name, experiment.seed, outcome.state_hash);
-    let stream = RecordingStreamBuilder::new(APPLICATION).recording_id(identity).save(path)?;
+    let stream = RecordingStreamBuilder::new(APPLICATION).enabled(true).recording_id(identity).save(path)?;
     stream.send_recording_name(name)?;
     let middle = middle(outcome);
     let (blueprint, properties) = layout::layout(middle, floor_m(&outcome.robot))?;
@@ -45,8 +45,8 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     scene_figure::log_objects(&recorder, experiment, &outcome.steps)?;
     paths::log_paths(&recorder, outcome, duration_s)?;
     state_figure::log_states(&recorder, experiment, outcome, duration_s, middle)?;
-    force_figure::log_forces(&recorder, &outcome.steps)?;
-    lanes::log_lanes(&recorder, &outcome.steps)?;
+    force_figure::log_forces(&recorder, &outcome.steps, outcome.skill.force.is_some())?;
+    lanes::log_lanes(&recorder, &outcome.steps, outcome.skill.motion.states() > 0)?;
     events::log_events(&recorder, outcome)?;
     guide::log_guide(&recorder, experiment, outcome)?;
     recorder.finish()
