@@ -31,7 +31,7 @@ pub fn step_columns(joints: usize, objects: &[&str]) -> Vec<StepColumn> {
     table.real("time_s", "simulated time", |r| r.time_s);
     table.joints(joints, "q", "_rad", "angle", |r| &r.joint_position);
     table.joints(joints, "v", "_rad_per_s", "velocity", |r| &r.joint_velocity);
-    table.joints(joints, "effort", "_nm", "torque", |r| &r.joint_torque);
+    table.joints(joints, "effort", "_nm", "measured effort of the drive", |r| &r.joint_effort);
     table.pose("tool", "tool frame (grasp centre)", |r| Some(r.tool));
     table.pose("reference", "pose that the controller wants the tool to have", |r| Some(r.reference));
     table.vector("force", "_n", "force of the environment on the tool, as the controller estimates it", |r| {

@@ -102,7 +102,7 @@ fn record(now: &Published<SkillController>, objects: usize) -> StepRecord {
         time_s: now.world.time_s(),
         joint_position: now.observation.position.clone(),
         joint_velocity: now.observation.velocity.clone(),
-        joint_torque: now.observation.effort.clone(),
+        joint_effort: now.observation.effort.clone(),
         tool: now.world.tool_pose(),
         reference: telemetry.reference,
         wrench: telemetry.wrench,

@@ -15,8 +15,8 @@ pub struct StepRecord {
     pub joint_position: Vec<f64>,
     /// Joint velocities (rad/s).
     pub joint_velocity: Vec<f64>,
-    /// Commanded joint torques after all limits (N m).
-    pub joint_torque: Vec<f64>,
+    /// Measured efforts of the drives in the last step (N m), with whatever is wrong with the sensors.
+    pub joint_effort: Vec<f64>,
     /// Where the tool frame (grasp centre) is.
     pub tool: Isometry3<f64>,
     /// Where the controller wants it.

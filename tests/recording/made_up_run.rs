@@ -68,7 +68,7 @@ fn record(i: usize, bodies: usize, objects: usize) -> StepRecord {
         time_s: 0.05 * i as f64,
         joint_position: (0..7).map(|j| a + j as f64).collect(),
         joint_velocity: (0..7).map(|j| a * j as f64).collect(),
-        joint_torque: (0..7).map(|j| a - j as f64).collect(),
+        joint_effort: (0..7).map(|j| a - j as f64).collect(),
         tool: pose(0.3),
         reference: pose(0.4),
         wrench: Vector6::new(a, 2.0 * a, 3.0 * a, 4.0 * a, 5.0 * a, 6.0 * a),

@@ -47,7 +47,7 @@ fn every_number_comes_back_bit_for_bit() {
         ("q1_rad", |r| r.joint_position[0]),
         ("q7_rad", |r| r.joint_position[6]),
         ("v2_rad_per_s", |r| r.joint_velocity[1]),
-        ("effort7_nm", |r| r.joint_torque[6]),
+        ("effort7_nm", |r| r.joint_effort[6]),
         ("tool_x_m", |r| r.tool.translation.x),
         ("tool_z_m", |r| r.tool.translation.z),
         ("tool_qx", |r| r.tool.rotation.i),

@@ -31,7 +31,7 @@ pub(super) fn send(
     blueprint: &Blueprint,
     properties: &Properties,
 ) -> Result<(), Fault> {
-    let (built, storage) = RecordingStreamBuilder::new(application).enabled(true).send_properties(false).memory()?;
+    let (built, storage) = RecordingStreamBuilder::new(application).send_properties(false).memory()?;
     blueprint.send(&built, BlueprintActivation::default())?;
     built.flush_blocking()?;
     let (mut messages, mut activation) = (Vec::new(), None);
@@ -43,7 +43,7 @@ pub(super) fn send(
         }
     }
     let activation = activation.ok_or("rerun made a layout without activating it")?;
-    let (added, storage) = RecordingStreamBuilder::from_store_id(&activation.blueprint_id).enabled(true).blueprint().memory()?;
+    let (added, storage) = RecordingStreamBuilder::from_store_id(&activation.blueprint_id).blueprint().memory()?;
     added.set_time_sequence("blueprint", 0);
     for (path, archetype) in &properties.0 {
         added.log(path.clone(), &**archetype)?;

@@ -32,7 +32,10 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     let name = format!("{}, seed {}", experiment.name, experiment.seed);
     // Equal identities are shown as one recording: runs that differ must not share one.
     let identity = format!("{}-{}-{:016x}", experiment.name, experiment.seed, outcome.state_hash);
-    let stream = RecordingStreamBuilder::new(APPLICATION).enabled(true).recording_id(identity).save(path)?;
+    let stream = RecordingStreamBuilder::new(APPLICATION).recording_id(identity).save(path)?;
+    if !stream.is_enabled() {
+        return Err("rerun is switched off by the environment variable RERUN; unset it, or do without a recording".into());
+    }
     stream.send_recording_name(name)?;
     let middle = middle(outcome);
     let (blueprint, properties) = layout::layout(middle, floor_m(&outcome.robot))?;
@@ -58,7 +61,7 @@ fn duration_s(outcome: &RunOutcome) -> f64 {
     inside.map_or_else(|| outcome.plan.duration_s(), |record| record.time_s / record.time_fraction)
 }
 
-/// What the camera looks at: the middle of the way of the tool (m).
+/// The middle of the way of the tool (m).
 fn middle(outcome: &RunOutcome) -> Vector3<f64> {
     let places = || outcome.steps.iter().map(|record| record.tool.translation.vector);
     let Some(first) = places().next() else { return Vector3::zeros() };
