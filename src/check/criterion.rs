@@ -25,7 +25,8 @@ pub enum Expectation {
 /// The questions that can be asked. All are answered from the simulated world, none from the plan.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CriterionKind {
-    /// The object lies inside the container, at rest. Value: horizontal distance of the centres (m).
+    /// The object lies inside the container, at rest. Value: distance of the centres along x or y, whichever is larger (m); beyond the limit when
+    /// the object sticks out at the top or is not at rest.
     ObjectInContainer {
         /// The object's name.
         object: String,
@@ -46,7 +47,7 @@ pub enum CriterionKind {
         /// The smallest distance allowed (m).
         min_m: f64,
     },
-    /// The tool ends at the skill's goal. Value: the distance (m).
+    /// The tool ends at the skill's goal, as learned for the setting. Value: the distance (m).
     GoalReached {
         /// The largest distance allowed (m).
         max_m: f64,
@@ -56,10 +57,10 @@ pub enum CriterionKind {
         /// The largest force (N).
         max_n: f64,
     },
-    /// A compliant window contains the moment when the gripper closes and ends before the tool reaches the object. Value: seconds to spare.
+    /// The arm complies when the gripper closes, and is stiff while the hand is over any of the objects. Value: seconds to spare.
     ComplianceWindow {
-        /// The object before which the arm must be stiff again.
-        ends_before: String,
+        /// The objects at which the arm must be stiff.
+        stiff_at: Vec<String>,
     },
     /// When the gripper closes, it is over the place where the object lay at the start. Value: horizontal distance to the grasp centre (m).
     GripperOverObject {
@@ -68,12 +69,14 @@ pub enum CriterionKind {
         /// The largest distance allowed (m).
         max_m: f64,
     },
-    /// While the person pushes, the coupling moves the reference by no more than this. Value: the largest displacement (m).
+    /// While the person pushes, the coupling moves the reference by no more than this. Value: the largest displacement (m), of what the coupling
+    /// asks for and of what has come of it. Without a push there is no answer.
     ReferenceUnmoved {
         /// The largest displacement (m); 0 asks for exactly none.
         max_m: f64,
     },
-    /// While the person pushes, the tool stays near where the reference wants it. Value: largest change of the distance since the push began (m).
+    /// While the person pushes, the tool stays near where the reference wants it. Value: largest change of the distance since the push began (m). Without a
+    /// push there is no answer.
     GripperUnmoved {
         /// The largest change (m).
         max_m: f64,
@@ -95,18 +98,18 @@ pub struct Criterion {
     pub limit: f64,
     /// How far the value is on the right side of the limit, in `unit` (negative: on the wrong side).
     pub margin: f64,
-    /// `m`, `N`, `s` or `1`.
+    /// `m`, `N`, `s` or `pairs`.
     pub unit: &'static str,
     /// When it first failed (s), if it failed at a moment.
     pub first_failed_time_s: Option<f64>,
 }
 
 impl Criterion {
-    /// Whether the answer is the one that the scenario expects.
+    /// Whether the answer is the one that the scenario expects. What was never measured is neither good nor bad, and so never expected.
     pub fn as_expected(&self) -> bool {
         match self.expect {
             Expectation::Pass => self.passed,
-            Expectation::Fail => !self.passed,
+            Expectation::Fail => !self.passed && !self.value.is_nan(),
             Expectation::Report => true,
         }
     }

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::windows::{compliance_windows, human_windows};
+use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
-use crate::world::{Object, ObjectKind};
+use crate::world::{ContactEpisode, Object, ObjectKind};
 
 /// Answers `specs` for the run `outcome` of `experiment`, in their order.
 pub fn judge(outcome: &RunOutcome, experiment: &Experiment, specs: &[CriterionSpec]) -> Vec<Criterion> {
@@ -42,11 +42,11 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         CriterionKind::ObjectInContainer { object, container, speed_max_m_per_s } => {
             (object_in_container(outcome, experiment, object, container, *speed_max_m_per_s), true)
         }
-        CriterionKind::NoContact { objects } => (no_contact(outcome, objects), true),
+        CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
         CriterionKind::Clearance { objects, min_m } => (clearance(outcome, objects, *min_m), false),
         CriterionKind::GoalReached { max_m } => (goal_reached(outcome, *max_m), true),
-        CriterionKind::HumanForce { max_n } => (human_force(steps, *max_n), true),
-        CriterionKind::ComplianceWindow { ends_before } => (compliance_window(steps, experiment, ends_before), false),
+        CriterionKind::HumanForce { max_n } => (human_force(outcome, *max_n), true),
+        CriterionKind::ComplianceWindow { stiff_at } => (compliance_window(steps, experiment, stiff_at), false),
         CriterionKind::GripperOverObject { object, max_m } => (gripper_over_object(steps, experiment, object, *max_m), true),
         CriterionKind::ReferenceUnmoved { max_m } => (reference_unmoved(steps, *max_m), true),
         CriterionKind::GripperUnmoved { max_m } => (gripper_unmoved(steps, *max_m), true),
@@ -72,9 +72,10 @@ fn object_in_container(outcome: &RunOutcome, experiment: &Experiment, object: &s
     };
     let away = inside.position - outside.position;
     let (limit, rim) = container_size(shape);
+    // Whoever sticks out at the top or rolls on is not inside, and as far from it as that, or as it goes on in a second.
+    let out_m = (away.z - rim).max(-away.z).max(inside.speed_m_per_s - speed_max);
     let value = away.xy().abs().max();
-    let passed = value <= limit && (0.0..rim).contains(&away.z) && inside.speed_m_per_s <= speed_max;
-    Answer { passed, value, limit, unit: "m", first_failed_time_s: None }
+    Answer::at_most(if out_m > 0.0 { value.max(limit + out_m) } else { value }, limit, "m")
 }
 
 /// Half the inner width (m) and the height of the rim above the container's origin (m).
@@ -92,10 +93,17 @@ fn belongs(name: &str, objects: &[String]) -> bool {
     objects.iter().any(|object| name == object || name.strip_prefix(object.as_str()).is_some_and(|rest| rest.starts_with('.')))
 }
 
-fn no_contact(outcome: &RunOutcome, objects: &[String]) -> Answer {
-    let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) && !belongs(&c.a, objects));
+fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String]) -> Answer {
+    let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects) && !standing(c, experiment));
     let first = touching().map(|c| c.first_time_s).fold(None, |first: Option<f64>, t| Some(first.map_or(t, |f| f.min(t))));
     Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
+}
+
+/// Whether the contact is nothing but an object standing on a table.
+fn standing(contact: &ContactEpisode, experiment: &Experiment) -> bool {
+    let table = |name: &str| experiment.objects.iter().any(|o| o.name == name && matches!(o.kind, ObjectKind::Table { .. }));
+    let object = |name: &str| experiment.objects.iter().any(|o| o.name == name);
+    (table(&contact.a) && object(&contact.b)) || (table(&contact.b) && object(&contact.a))
 }
 
 fn clearance(outcome: &RunOutcome, objects: &[String], min_m: f64) -> Answer {
@@ -106,20 +114,16 @@ fn clearance(outcome: &RunOutcome, objects: &[String], min_m: f64) -> Answer {
 }
 
 fn goal_reached(outcome: &RunOutcome, max_m: f64) -> Answer {
-    let samples = outcome.plan.samples();
-    let goal = (samples > 0).then(|| outcome.plan.values().row(samples - 1).into_owned());
-    let value = match (goal, outcome.steps.last()) {
-        (Some(goal), Some(last)) if goal.len() >= 3 => (Vector3::new(goal[0], goal[1], goal[2]) - last.tool.translation.vector).norm(),
-        _ => f64::NAN,
-    };
+    let value = outcome.steps.last().map_or(f64::NAN, |last| (outcome.goal - last.tool.translation.vector).norm());
     Answer::at_most(value, max_m, "m")
 }
 
-fn human_force(steps: &[StepRecord], max_n: f64) -> Answer {
-    let peak = steps.iter().map(|step| step.human.force.norm()).fold(0.0, f64::max);
+fn human_force(outcome: &RunOutcome, max_n: f64) -> Answer {
     // The cap is a length of a vector: allow for its rounding.
-    let failed = steps.iter().find(|step| step.human.force.norm() > max_n * (1.0 + 1e-12)).map(|step| step.time_s);
-    Answer { passed: failed.is_none(), value: peak, limit: max_n, unit: "N", first_failed_time_s: failed }
+    let allowed = max_n * (1.0 + 1e-12);
+    let failed = outcome.steps.iter().find(|step| step.human.force.norm() > allowed).map(|step| step.time_s);
+    let value = outcome.human_peak_force_n;
+    Answer { passed: value <= allowed, value, limit: max_n, unit: "N", first_failed_time_s: failed }
 }
 
 /// The moment when the gripper is first told to close.
@@ -127,26 +131,33 @@ fn closing(steps: &[StepRecord]) -> Option<&StepRecord> {
     steps.windows(2).find(|pair| pair[0].gripper_command >= 0.5 && pair[1].gripper_command < 0.5).map(|pair| &pair[1])
 }
 
-fn compliance_window(steps: &[StepRecord], experiment: &Experiment, ends_before: &str) -> Answer {
-    let (Some(closing), Some(gate_s)) = (closing(steps), passage(steps, experiment, ends_before)) else {
+fn compliance_window(steps: &[StepRecord], experiment: &Experiment, stiff_at: &[String]) -> Answer {
+    let (Some(closing), Some(last)) = (closing(steps), steps.last()) else {
         return Answer::at_least(f64::NAN, 0.0, "s");
     };
     let windows = compliance_windows(steps);
-    let Some(around) = windows.iter().find(|w| (w.start_s..=w.end_s).contains(&closing.time_s)) else {
-        return Answer::at_least(f64::NAN, 0.0, "s");
-    };
-    // The last window that opens before the gate is reached must also close before it.
-    let last = windows.iter().rev().find(|w| w.start_s <= gate_s).unwrap_or(around);
-    let spare_s = (closing.time_s - around.start_s).min(around.end_s - closing.time_s).min(gate_s - last.end_s);
-    Answer::at_least(spare_s, 0.0, "s").first_failed((last.end_s > gate_s).then_some(gate_s))
+    let inside = |w: &Window| (closing.time_s - w.start_s).min(w.end_s - closing.time_s);
+    let mut spare_s = windows.iter().map(inside).fold(-last.time_s, f64::max);
+    let mut failed = (spare_s < 0.0).then_some(closing.time_s);
+    for passage in stiff_at.iter().flat_map(|object| passages(steps, experiment, object)) {
+        for window in &windows {
+            let gap_s = (window.start_s - passage.end_s).max(passage.start_s - window.end_s);
+            spare_s = spare_s.min(gap_s);
+            failed = failed.or((gap_s < 0.0).then_some(window.start_s.max(passage.start_s)));
+        }
+    }
+    Answer::at_least(spare_s, 0.0, "s").first_failed(failed)
 }
 
-/// When the tool is first over the object while it travels along y (s).
-fn passage(steps: &[StepRecord], experiment: &Experiment, object: &str) -> Option<f64> {
-    let object = experiment.objects.iter().find(|o| o.name == object)?;
+/// Half the extent of a hand along its way (m): so far before and behind an object some of it is still over it.
+const HALF_HAND_M: f64 = 0.04;
+
+/// When the hand is over the object, at the object's place along y.
+fn passages(steps: &[StepRecord], experiment: &Experiment, object: &str) -> Vec<Window> {
+    let Some(object) = experiment.objects.iter().find(|o| o.name == object) else { return Vec::new() };
     let half = if let ObjectKind::UBlock { thickness_m, .. } = object.kind { thickness_m / 2.0 } else { 0.0 };
     let y = object.center(&experiment.parameters).y;
-    steps.iter().find(|step| (step.tool.translation.y - y).abs() <= half).map(|step| step.time_s)
+    windows(steps, |step| (step.tool.translation.y - y).abs() <= half + HALF_HAND_M)
 }
 
 fn gripper_over_object(steps: &[StepRecord], experiment: &Experiment, object: &str, max_m: f64) -> Answer {
@@ -160,24 +171,26 @@ fn gripper_over_object(steps: &[StepRecord], experiment: &Experiment, object: &s
 }
 
 fn reference_unmoved(steps: &[StepRecord], max_m: f64) -> Answer {
-    let pushed = |step: &&StepRecord| step.human.force.norm() > 0.0;
-    let value = steps.iter().filter(pushed).map(|step| step.coupling_displacement.norm()).fold(0.0, f64::max);
-    let failed = steps.iter().filter(pushed).find(|step| step.coupling_displacement.norm() > max_m).map(|step| step.time_s);
-    Answer::at_most(value, max_m, "m").first_failed(failed)
+    // What earlier help left behind fades by itself: a push moves the plan when it asks for a displacement, or makes the deviation grow.
+    largest_in_pushes(steps, max_m, |step, before| step.coupling_displacement.norm().max(step.deviation.norm() - before.deviation.norm()))
 }
 
 fn gripper_unmoved(steps: &[StepRecord], max_m: f64) -> Answer {
     let lag = |step: &StepRecord| step.tool.translation.vector - step.reference.translation.vector;
-    let mut value: f64 = 0.0;
+    largest_in_pushes(steps, max_m, |step, before| (lag(step) - lag(before)).norm())
+}
+
+/// The largest of `moved`, which is told the step and the one at which its push began. Without a push there is no answer.
+fn largest_in_pushes(steps: &[StepRecord], max_m: f64, moved: impl Fn(&StepRecord, &StepRecord) -> f64) -> Answer {
+    let mut largest: Option<f64> = None;
     let mut failed = None;
     for window in human_windows(steps) {
         let during: Vec<&StepRecord> = steps.iter().filter(|step| (window.start_s..=window.end_s).contains(&step.time_s)).collect();
-        let before = during.first().map_or_else(Vector3::zeros, |step| lag(step));
-        for step in during {
-            let moved = (lag(step) - before).norm();
-            value = value.max(moved);
+        for step in &during {
+            let moved = moved(step, during[0]);
+            largest = Some(largest.unwrap_or(0.0).max(moved));
             failed = failed.or((moved > max_m).then_some(step.time_s));
         }
     }
-    Answer::at_most(value, max_m, "m").first_failed(failed)
+    Answer::at_most(largest.unwrap_or(f64::NAN), max_m, "m").first_failed(failed)
 }

@@ -22,7 +22,7 @@ pub fn human_windows(steps: &[StepRecord]) -> Vec<Window> {
 }
 
 /// Maximal stretches in which `holds`.
-fn windows(steps: &[StepRecord], holds: impl Fn(&StepRecord) -> bool) -> Vec<Window> {
+pub(super) fn windows(steps: &[StepRecord], holds: impl Fn(&StepRecord) -> bool) -> Vec<Window> {
     let mut found: Vec<Window> = Vec::new();
     let mut inside = false;
     for step in steps {

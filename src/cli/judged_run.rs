@@ -48,6 +48,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         | SimulationError::Unreachable { .. }
         | SimulationError::JointCounts(_)
         | SimulationError::World(_)
+        | SimulationError::Scene(_)
         | SimulationError::Mismatch(_) => Outcome::InvalidInput,
     }
 }

@@ -9,10 +9,9 @@ use super::judged_run::outcome_of;
 use super::load::options;
 use super::select::select;
 use super::terminal::Terminal;
-use crate::demonstration::Dataset;
 use crate::report::Outcome;
 use crate::scenario::{Diagnostic, Scenario};
-use crate::simulation::{DemonstrationSource, Setup, SimulationError};
+use crate::simulation::{Setup, SimulationError};
 
 /// What is known about one scenario.
 #[derive(Serialize)]
@@ -72,12 +71,10 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
     checked
 }
 
-/// Loads the robot and the dataset that the scenario names; what is odd about the robot.
+/// Loads the robot and the dataset that the scenario names and looks whether the arm can go its way; what is odd about the robot.
 fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, SimulationError> {
     let setup = Setup::new(&scenario.experiment)?;
-    if let DemonstrationSource::Dataset(folder) = &scenario.experiment.demonstrations {
-        Dataset::read(folder)?;
-    }
+    setup.preflight()?;
     Ok(setup.warnings.iter().map(ToString::to_string).collect())
 }
 

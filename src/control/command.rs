@@ -25,6 +25,8 @@ pub struct Telemetry {
     pub expected_force: Vector3<f64>,
     /// Displacement zeta/K that the coupling asks for (m).
     pub coupling_displacement: Vector3<f64>,
+    /// How far the forces so far have moved the reference from the plan (m).
+    pub deviation: Vector3<f64>,
     /// Phase s.
     pub phase: f64,
     /// Elapsed fraction of the duration u.
@@ -44,6 +46,7 @@ impl Default for Telemetry {
             wrench: Vector6::zeros(),
             expected_force: Vector3::zeros(),
             coupling_displacement: Vector3::zeros(),
+            deviation: Vector3::zeros(),
             phase: 1.0,
             time_fraction: 0.0,
             state: 0,

@@ -18,7 +18,7 @@ pub use hold::HoldPosture;
 pub use impedance::ImpedanceSettings;
 pub use observation::Observation;
 pub use pose_tracking::PoseTracker;
-pub use skill_controller::SkillController;
+pub use skill_controller::{SkillController, WRENCH_COLUMNS};
 pub use trajectory_controller::{ToolPath, TrajectoryController};
 pub use wrench_observer::WrenchObserver;
 pub use zero_gravity::ZeroGravity;

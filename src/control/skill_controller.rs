@@ -14,8 +14,9 @@ pub struct SkillController {
     orientation: UnitQuaternion<f64>,
     step_s: f64,
     stiffness: f64,
-    /// How many of force x, y, z and torque x, y, z the skill takes.
-    forces: usize,
+    /// Which of force x, y, z and torque x, y, z the skill takes, in its order, and room for their values.
+    wrench_places: Vec<usize>,
+    wrench: Vec<f64>,
     telemetry: Telemetry,
     started: bool,
 }
@@ -30,25 +31,22 @@ impl SkillController {
         orientation: UnitQuaternion<f64>,
         step_s: f64,
     ) -> Self {
-        let (stiffness, forces) = (skill.motion.stiffness, execution.state().expected_wrench.len().min(6));
-        Self {
-            skill: execution,
-            tracker,
-            observer,
-            orientation,
-            step_s,
-            stiffness,
-            forces,
-            telemetry: Telemetry::default(),
-            started: false,
-        }
+        let stiffness = skill.motion.stiffness;
+        let wrench_places: Vec<usize> = skill.force.iter().flat_map(|force| &force.columns).filter_map(|name| wrench_place(name)).collect();
+        let wrench_places = if wrench_places.is_empty() { vec![0, 1, 2] } else { wrench_places };
+        let wrench = vec![0.0; wrench_places.len()];
+        let telemetry = Telemetry::default();
+        Self { skill: execution, tracker, observer, orientation, step_s, stiffness, wrench_places, wrench, telemetry, started: false }
     }
 }
 
 impl Controller for SkillController {
     fn decide(&mut self, observation: &Observation, command: &mut Command) {
         let wrench = self.observer.observe(observation);
-        let state = if self.started { self.skill.step(self.step_s, &wrench.as_slice()[..self.forces], 1.0) } else { self.skill.state() };
+        for (value, &place) in self.wrench.iter_mut().zip(&self.wrench_places) {
+            *value = wrench[place];
+        }
+        let state = if self.started { self.skill.step(self.step_s, &self.wrench, 1.0) } else { self.skill.state() };
         self.started = true;
         let place = Translation3::new(state.position[0], state.position[1], state.position[2]);
         let reference = Isometry3::from_parts(place, state.orientation.unwrap_or(self.orientation));
@@ -56,8 +54,9 @@ impl Controller for SkillController {
         self.telemetry = Telemetry {
             reference,
             wrench,
-            expected_force: first_three(state.expected_wrench.as_slice()),
+            expected_force: expected_force(state.expected_wrench.as_slice(), &self.wrench_places),
             coupling_displacement: first_three(state.zeta.as_slice()) / self.stiffness,
+            deviation: first_three(state.deviation.as_slice()),
             phase: state.phase,
             time_fraction: state.u,
             state: state.state,
@@ -70,6 +69,23 @@ impl Controller for SkillController {
     fn telemetry(&self) -> &Telemetry {
         &self.telemetry
     }
+}
+
+/// Columns of a wrench in the order of the estimate: force, torque.
+pub const WRENCH_COLUMNS: [&str; 6] = ["fx_n", "fy_n", "fz_n", "tx_nm", "ty_nm", "tz_nm"];
+
+/// The place of a wrench column in the estimate.
+fn wrench_place(column: &str) -> Option<usize> {
+    WRENCH_COLUMNS.iter().position(|name| *name == column)
+}
+
+/// The force among the expected values, each of which belongs to a place of the wrench.
+fn expected_force(expected: &[f64], places: &[usize]) -> Vector3<f64> {
+    let mut force = Vector3::zeros();
+    for (value, place) in expected.iter().zip(places).filter(|(_, place)| **place < 3) {
+        force[*place] = *value;
+    }
+    force
 }
 
 fn first_three(values: &[f64]) -> Vector3<f64> {

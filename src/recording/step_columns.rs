@@ -41,7 +41,8 @@ pub fn step_columns(joints: usize, objects: &[&str]) -> Vec<StepColumn> {
         r.wrench.fixed_rows::<3>(3).into()
     });
     table.vector("expected_force", "_n", "force that the force model expects", |r| r.expected_force);
-    table.vector("coupling", "_m", "displacement zeta/K by the coupling term", |r| r.coupling_displacement);
+    table.vector("coupling", "_m", "displacement zeta/K that the coupling term asks for", |r| r.coupling_displacement);
+    table.vector("deviation", "_m", "how far forces have moved the reference from the plan", |r| r.deviation);
     table.real("phase", "phase s of the canonical system, from 1 towards 0", |r| r.phase);
     table.real("time_fraction", "elapsed fraction u of the skill's duration", |r| r.time_fraction);
     table.integer("state", "active HMM state, from 0", |r| r.state as i64);

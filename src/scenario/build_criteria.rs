@@ -21,7 +21,7 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
         "clearance" => CriterionKind::Clearance { objects: table.texts("objects"), min_m: table.number("min_m") },
         "goal_reached" => CriterionKind::GoalReached { max_m: max_m() },
         "human_force" => CriterionKind::HumanForce { max_n: table.number("max_n") },
-        "compliance_window" => CriterionKind::ComplianceWindow { ends_before: table.text("ends_before").to_owned() },
+        "compliance_window" => CriterionKind::ComplianceWindow { stiff_at: table.texts("stiff_at") },
         "gripper_over_object" => CriterionKind::GripperOverObject { object: object(), max_m: max_m() },
         "reference_unmoved" => CriterionKind::ReferenceUnmoved { max_m: max_m() },
         "gripper_unmoved" => CriterionKind::GripperUnmoved { max_m: max_m() },

@@ -82,6 +82,8 @@ pub(super) enum To {
     Object,
     /// An object of the scene, of one kind.
     ObjectOfKind(&'static str),
+    /// An object of the scene that can be moved.
+    MovableObject,
     /// A task parameter.
     Parameter,
 }

@@ -218,7 +218,7 @@ mod tests {
             "clearance\"\nobjects = [\"block\"]\nmin_m = 0.005",
             "goal_reached\"\nmax_m = 0.02",
             "human_force\"\nmax_n = 15",
-            "compliance_window\"\nends_before = \"block\"",
+            "compliance_window\"\nstiff_at = [\"block\"]",
             "gripper_over_object\"\nobject = \"toy\"\nmax_m = 0.02",
             "reference_unmoved\"\nmax_m = 0",
             "gripper_unmoved\"\nmax_m = 0.015\nexpect = \"fail\"",

@@ -5,7 +5,7 @@ use super::key::Kind::{
     Text, Vector, Windows,
 };
 use super::key::Length::{AtLeast, Exactly};
-use super::key::To::{Object, ObjectOfKind, Parameter};
+use super::key::To::{MovableObject, Object, ObjectOfKind, Parameter};
 use super::key::{Key, PathTo, Preset, Shape, Variant};
 use super::measure::{above, within};
 
@@ -75,7 +75,7 @@ const SIMULATION: Shape = Shape::plain(&[
     Key::new("solver_iterations", Count(1, 16), "solver iterations per step").or(Preset::Count(1)),
     Key::new("gravity_m_per_s2", Vector(within("m/s²", -100.0, 100.0), Exactly(3)), "acceleration of gravity, world axes")
         .or(Preset::Vector(&[0.0, 0.0, -9.81])),
-    Key::new("log_rate_hz", Number(within("Hz", 1.0, 1e4)), "samples per second in step log and recording").or_number(100.0),
+    Key::new("log_rate_hz", Number(within("Hz", 10.0, 1e4)), "samples per second in step log and recording").or_number(100.0),
 ]);
 
 const OBJECT: Shape = Shape {
@@ -244,7 +244,7 @@ const HELP: Shape = Shape {
         Variant {
             kind: "guide",
             keys: &[
-                Key::new("object", Reference(Object), "the object over which the person brings the gripper"),
+                Key::new("object", Reference(MovableObject), "the object over which the person brings the gripper"),
                 Key::new("reach_m", Number(within("m", 0.0, 2.0)), "horizontal distance at which the person takes hold").or_number(0.12),
                 Key::new("force_max_n", Number(within("N", 0.0, 200.0)), "largest force").or_number(15.0),
                 Key::new("weight_xy", Vector(within("", 0.0, 1.0), Exactly(2)), "how much of the error along x and y the person corrects")
@@ -286,7 +286,7 @@ const CRITERION: Shape = Shape {
         Variant {
             kind: "clearance",
             keys: &[
-                Key::new("objects", References(Object), "what must be kept away from"),
+                Key::new("objects", References(ObjectOfKind("u_block")), "what must be kept away from"),
                 Key::new("min_m", Number(within("m", 0.0, 1.0)), "smallest distance"),
             ],
         },
@@ -294,7 +294,7 @@ const CRITERION: Shape = Shape {
         Variant { kind: "human_force", keys: &[Key::new("max_n", Number(within("N", 0.0, 500.0)), "largest force of the person")] },
         Variant {
             kind: "compliance_window",
-            keys: &[Key::new("ends_before", Reference(Object), "the object before which the arm must be stiff again")],
+            keys: &[Key::new("stiff_at", References(ObjectOfKind("u_block")), "the objects at which the arm must be stiff")],
         },
         Variant {
             kind: "gripper_over_object",

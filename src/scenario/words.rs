@@ -49,7 +49,7 @@ impl To {
     /// The key of the scenario under which such things are listed.
     pub fn list(self) -> &'static str {
         match self {
-            Self::Object | Self::ObjectOfKind(_) => "object",
+            Self::Object | Self::ObjectOfKind(_) | Self::MovableObject => "object",
             Self::Parameter => "parameters",
         }
     }
@@ -59,6 +59,7 @@ impl To {
         match self {
             Self::Object => "an object".to_owned(),
             Self::ObjectOfKind(kind) => format!("an object of kind `{kind}`"),
+            Self::MovableObject => "an object that can be moved (a ball or a box)".to_owned(),
             Self::Parameter => "a parameter".to_owned(),
         }
     }

@@ -39,6 +39,9 @@ pub enum SimulationError {
     /// Nothing could be learned.
     #[error(transparent)]
     Learning(#[from] LearningError),
+    /// The scene cannot be as described.
+    #[error("{0}: put it on a table, or give the table another size")]
+    Scene(String),
     /// The recorded demonstrations do not fit the experiment.
     #[error("the demonstrations do not fit the scenario: {0}")]
     Mismatch(String),

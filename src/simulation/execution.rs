@@ -1,6 +1,6 @@
 //! Execution: the learned skill runs in a setting that was never shown, and the person may help.
 
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::person::helper;
 use super::setup::Setup;
@@ -13,6 +13,8 @@ use crate::world::{Clearance, ContactEpisode, World, pointing_down};
 /// What an execution left behind.
 pub(super) struct Executed {
     pub records: Vec<StepRecord>,
+    pub human_peak_force_n: f64,
+    pub goal: Vector3<f64>,
     pub collisions: Vec<ContactEpisode>,
     pub clearances: Vec<Clearance>,
     pub final_objects: Vec<FinalObject>,
@@ -29,6 +31,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
     let query = settings(setup);
     let execution = SkillExecution::new(skill, &query)?;
     let duration = execution.duration_s();
+    let goal = Vector3::new(execution.goal()[0], execution.goal()[1], execution.goal()[2]);
     let start = execution.state();
     let orientation = start.orientation.unwrap_or_else(|| pointing_down(0.0));
     let place = Translation3::new(start.position[0], start.position[1], start.position[2]);
@@ -42,6 +45,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
     let steps = setup.steps(duration + experiment.execution.settle_s) + 1;
     let every = setup.steps(1.0 / experiment.log_rate_hz).max(1);
     let mut records = Vec::with_capacity((steps / every) as usize + 1);
+    let mut human_peak_force_n: f64 = 0.0;
     let mut hold = setup.hold();
     let mut run = StepLoop {
         world: &mut world,
@@ -55,6 +59,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
         steps,
         |_, _| {},
         |now| {
+            human_peak_force_n = now.hand.force.norm().max(human_peak_force_n);
             if now.world.step().is_multiple_of(every) {
                 records.push(record(now, names.len()));
             }
@@ -62,6 +67,8 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
     )?;
     Ok(Executed {
         records,
+        human_peak_force_n,
+        goal,
         collisions: world.contacts().to_vec(),
         clearances: world.clearances().to_vec(),
         final_objects: final_objects(&world, &names),
@@ -108,6 +115,7 @@ fn record(now: &Published<SkillController>, objects: usize) -> StepRecord {
         wrench: telemetry.wrench,
         expected_force: telemetry.expected_force,
         coupling_displacement: telemetry.coupling_displacement,
+        deviation: telemetry.deviation,
         phase: telemetry.phase,
         time_fraction: telemetry.time_fraction,
         state: telemetry.state,

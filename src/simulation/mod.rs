@@ -8,6 +8,7 @@ mod experiment;
 mod guide_path;
 mod outcome;
 mod person;
+mod preflight;
 mod progress;
 mod replay;
 mod run;

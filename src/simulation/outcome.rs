@@ -25,6 +25,10 @@ pub struct RunOutcome {
     pub plan: Trajectory,
     /// The execution, sampled at the log rate.
     pub steps: Vec<StepRecord>,
+    /// The largest force of the person in the execution, every engine step considered (N).
+    pub human_peak_force_n: f64,
+    /// Where the skill says that the tool ends in this setting (m, world).
+    pub goal: Vector3<f64>,
     /// Contacts of the execution, every engine step considered.
     pub collisions: Vec<ContactEpisode>,
     /// Smallest distances of the execution.

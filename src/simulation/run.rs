@@ -9,7 +9,7 @@ use super::setup::Setup;
 use super::teaching::{Lesson, demonstration, settings_of, teach};
 use super::{DemonstrationSource, Experiment, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan};
 use crate::demonstration::{Dataset, Demonstration};
-use crate::learning::{self, Learned};
+use crate::learning::{self, Learned, Skill};
 
 /// Carries out `experiment`: teaches or reads the demonstrations, learns, executes.
 ///
@@ -17,6 +17,7 @@ use crate::learning::{self, Learned};
 /// When the robot, the demonstrations or a pose cannot be used, nothing can be learned, or the simulation diverges.
 pub fn run(experiment: &Experiment, progress: &dyn Progress) -> Result<RunOutcome, SimulationError> {
     let setup = Setup::new(experiment)?;
+    setup.preflight()?;
     let (dataset, mut history) = demonstrate(&setup, progress)?;
     let started = progress.elapsed_s();
     progress.phase("learn", 0);
@@ -33,7 +34,11 @@ pub fn demonstrate(setup: &Setup, progress: &dyn Progress) -> Result<(Dataset, H
     let mut history = History::default();
     let dataset = match &setup.experiment.demonstrations {
         DemonstrationSource::Teach(plan) => taught(setup, plan, progress, &mut history)?,
-        DemonstrationSource::Dataset(folder) => Dataset::read(folder)?,
+        DemonstrationSource::Dataset(folder) => {
+            let dataset = Dataset::read(folder)?;
+            setup.fits(&dataset)?;
+            dataset
+        }
     };
     Ok((dataset, history))
 }
@@ -53,6 +58,8 @@ pub fn perform(
     let plan = learning::generate(&learned.skill, &settings(setup), 1.0 / setup.experiment.log_rate_hz, 1.0)?;
     progress.phase("execute", 0);
     let executed = execute(setup, &learned.skill)?;
+    let mut report = learned.report.clone();
+    report.warnings.extend(extrapolation(setup, &learned.skill)?);
     history.hashes.push(executed.state_hash);
     history.close("execute", executed.steps, started, progress);
     let state_hash = history.hash();
@@ -61,15 +68,25 @@ pub fn perform(
         robot_warnings: setup.warnings.clone(),
         dataset: dataset.clone(),
         skill: learned.skill.clone(),
-        learning: learned.report.clone(),
+        learning: report,
         plan,
         steps: executed.records,
+        human_peak_force_n: executed.human_peak_force_n,
+        goal: executed.goal,
         collisions: executed.collisions,
         clearances: executed.clearances,
         phases: history.phases,
         state_hash,
         final_objects: executed.final_objects,
     })
+}
+
+/// A warning when the setting lies outside what was demonstrated.
+fn extrapolation(setup: &Setup, skill: &Skill) -> Result<Option<String>, SimulationError> {
+    let beyond = skill.extrapolation(&settings(setup).theta_m)?;
+    let told = setup.experiment.theta_m.join(", ");
+    let message = || format!("{told} lies outside the demonstrated range by {:.0} % of it: the skill extrapolates", beyond * 100.0);
+    Ok((beyond > 0.0).then(message))
 }
 
 /// Teaches all demonstrations, then replays each; both on all cores, the result independent of their number.

@@ -134,6 +134,7 @@ impl Setup {
             tool: &settings.tool_link,
             grasp: &settings.grasp_link,
             posture_rad,
+            idle_tool: (!settings.idle_posture_rad.is_empty()).then_some(settings.idle_tool_link.as_str()),
             idle_posture_rad: &settings.idle_posture_rad,
             dry_friction_nm: settings.sensor.dry_friction_nm,
             objects: &self.experiment.objects,

@@ -27,6 +27,8 @@ pub struct StepRecord {
     pub expected_force: Vector3<f64>,
     /// The coupling term's displacement zeta/K (m).
     pub coupling_displacement: Vector3<f64>,
+    /// How far the forces so far have moved the reference from the plan (m).
+    pub deviation: Vector3<f64>,
     /// Phase s of the canonical system, and elapsed fraction u of the duration.
     pub phase: f64,
     /// Elapsed fraction of the duration, u = t / tau.

@@ -30,6 +30,8 @@ pub(super) struct Drive {
     passive_damping: f64,
     /// The drive's effort in the last step (N m or N).
     pub effort: f64,
+    /// By how much that was over the limit; taken back in the next step (N m or N).
+    excess: f64,
     command: (f64, f64),
 }
 
@@ -146,6 +148,17 @@ impl Articulation {
         }
     }
 
+    /// As [`Self::read`], of the degrees of freedom `dofs` only.
+    pub(super) fn read_some(&self, engine: &PhysicsWorld, dofs: &[usize], q: &mut [f64], v: &mut [f64]) {
+        let Some((multibody, _)) = engine.multibody_joints.get(self.handle) else { return };
+        let velocity = multibody.generalized_velocity();
+        for (k, &dof) in dofs.iter().enumerate() {
+            let Some(link) = multibody.link(dof + 1) else { continue };
+            q[k] = link.joint().coords()[link_axis(link.joint().data)];
+            v[k] = velocity[dof];
+        }
+    }
+
     /// Tells the drives of the degrees of freedom `dofs` (in the order of the command) what to do in the next step.
     pub(super) fn command(&mut self, dofs: &[usize], command: &JointCommand) {
         for (k, &i) in dofs.iter().enumerate() {
@@ -168,7 +181,7 @@ impl Articulation {
             let (torque, damping) = drive.command;
             multibody.damping_mut()[i] = drive.passive_damping + damping;
             let v = multibody.generalized_velocity()[i];
-            drive.effort = drive.limited(torque - damping * v, v, step_s) + damping * v;
+            drive.effort = drive.limited(torque - damping * v, v, step_s) - drive.excess + damping * v;
             let Some(rotation) = bodies.get(drive.link).map(|body| *body.rotation()) else { continue };
             let torque = rotation * drive.axis * drive.effort;
             if let Some(body) = bodies.get_mut(drive.link) {
@@ -181,10 +194,14 @@ impl Articulation {
     }
 
     /// After the step: what each drive delivered, with the damping at the new velocity.
+    ///
+    /// The damping reacts to the velocity at the end of the step, so an impact may carry the effort over its limit for that step. What was
+    /// over is taken back in the next one: over any two steps the mean effort is within the limit.
     pub(super) fn settle_efforts(&mut self, engine: &PhysicsWorld) {
         let Some((multibody, _)) = engine.multibody_joints.get(self.handle) else { return };
         for (i, drive) in self.drives.iter_mut().enumerate() {
             drive.effort -= drive.command.1 * multibody.generalized_velocity()[i];
+            drive.excess = drive.effort - drive.effort.clamp(-drive.effort_limit, drive.effort_limit);
         }
     }
 
@@ -222,6 +239,7 @@ impl Drive {
             inertia: f64::INFINITY,
             passive_damping: joint.damping,
             effort: 0.0,
+            excess: 0.0,
             command: (0.0, 0.0),
         }
     }

@@ -10,7 +10,7 @@ use super::parts::{Owner, Part, Parts};
 /// Penetration from which a scene is refused (m): more than rounding in a file's numbers.
 const START_OVERLAP_M: f64 = 1e-4;
 
-/// Looks for overlaps among all parts that may touch each other.
+/// Looks for overlaps among all parts, also of things that do not move.
 ///
 /// # Errors
 /// When there are any: all of them, with their depths.
@@ -20,7 +20,9 @@ pub(super) fn refuse(engine: &PhysicsWorld, parts: &Parts) -> Result<(), WorldEr
     let mut pairs = Vec::new();
     for (i, (a, part_a)) in all.iter().enumerate() {
         for (b, part_b) in &all[i + 1..] {
-            if together(part_a.owner, part_b.owner) || !a.collision_groups().test(b.collision_groups()) {
+            // Links that overlap the torso by construction never touch it; everything else must not start inside anything.
+            let robots = matches!((part_a.owner, part_b.owner), (Owner::Robot { .. }, Owner::Robot { .. }));
+            if together(part_a.owner, part_b.owner) || (robots && !a.collision_groups().test(b.collision_groups())) {
                 continue;
             }
             let depth = depth(a, b);

@@ -25,8 +25,9 @@ pub(super) struct Limbs {
     pub arm: Vec<usize>,
     /// Places in `working` of the gripper's joints.
     pub fingers: Vec<usize>,
-    /// Joints of the other arm's tree.
+    /// Joints of the other arm's tree, and the places in it of the joints between base and its tool.
     pub idle: Vec<usize>,
+    pub idle_arm: Vec<usize>,
     /// Index of the body that carries the tool, and the tool in it.
     pub tool_body: usize,
     pub body_from_tool: Isometry3<f64>,
@@ -36,34 +37,39 @@ pub(super) struct Limbs {
 }
 
 impl Limbs {
-    /// Finds the arm that carries `tool` and another tree of `idle_joints` joints; the rest of the robot does not move.
-    pub(super) fn find(model: &RobotModel, tool: &str, grasp: &str, idle_joints: usize) -> Result<Self, WorldError> {
-        let frame = |name: &str| {
-            model.frames.iter().find(|frame| frame.name == name).ok_or_else(|| WorldError::Robot {
-                robot: model.name.clone(),
-                what: format!("link `{name}`"),
-                help: "name an existing link of the URDF".into(),
-            })
-        };
+    /// Finds the arm that carries `tool` (a person takes hold of its link `grasp`) and the one that carries `idle_tool`, if there is one; the
+    /// rest of the robot does not move.
+    pub(super) fn find(model: &RobotModel, tool: &str, grasp: &str, idle_tool: Option<&str>) -> Result<Self, WorldError> {
+        let refuse = |what: String, help: &str| WorldError::Robot { robot: model.name.clone(), what, help: help.into() };
+        let frame = |name: &str| model.frame(name).ok_or_else(|| refuse(format!("link `{name}`"), "name an existing link of the URDF"));
         let (tool, grasp) = (frame(tool)?, frame(grasp)?);
-        let chain = chain_to(model, tool.body);
-        let first = *chain.first().ok_or_else(|| WorldError::Robot {
-            robot: model.name.clone(),
-            what: format!("moving joint between its base and `{}`", tool.name),
-            help: "name the tool frame of an arm".into(),
-        })?;
-        let working = subtree(model, first);
-        let idle = roots(model)
-            .filter(|&joint| joint != first)
-            .map(|joint| subtree(model, joint))
-            .find(|tree| tree.len() == idle_joints)
-            .unwrap_or_default();
-        let (arm, fingers) = (0..working.len()).partition(|&i| chain.contains(&working[i]));
+        let (working, chain) = tree_of(model, tool.body)
+            .ok_or_else(|| refuse(format!("moving joint between its base and `{}`", tool.name), "name the tool frame of an arm"))?;
+        let on_arm = |body: usize| working.iter().any(|&joint| model.joints[joint].child_body == body);
+        if !on_arm(grasp.body) {
+            return Err(refuse(format!("link `{}` on the arm that works", grasp.name), "let the person take hold of a link of that arm"));
+        }
+        let (idle, idle_chain) = match idle_tool {
+            None => (Vec::new(), Vec::new()),
+            Some(name) => tree_of(model, frame(name)?.body)
+                .filter(|(tree, _)| tree[0] != working[0])
+                .ok_or_else(|| refuse(format!("other arm that carries `{name}`"), "name the tool frame of the arm that does not work"))?,
+        };
+        let (arm, fingers): (Vec<usize>, Vec<usize>) = (0..working.len()).partition(|&i| chain.contains(&working[i]));
+        let idle_arm = (0..idle.len()).filter(|&i| idle_chain.contains(&idle[i])).collect();
+        let slides = |joint: &usize| model.joints[*joint].kind == JointKind::Prismatic;
+        if chain.iter().chain(&idle_chain).any(slides) {
+            return Err(refuse("arm of turning joints only".into(), "arms with sliding joints cannot be driven yet"));
+        }
+        if !fingers.iter().all(|&i| slides(&working[i])) {
+            return Err(refuse("gripper of sliding fingers".into(), "grippers with turning fingers cannot be driven yet"));
+        }
         Ok(Self {
             working,
             arm,
             fingers,
             idle,
+            idle_arm,
             tool_body: tool.body,
             body_from_tool: tool.body_from_frame,
             grasp_body: grasp.body,
@@ -72,8 +78,10 @@ impl Limbs {
     }
 }
 
-fn roots(model: &RobotModel) -> impl Iterator<Item = usize> + '_ {
-    (0..model.joints.len()).filter(|&i| model.joints[i].parent_body == 0)
+/// The joints of the tree that carries `body` (parents first), and those of them between base and `body`; nothing for the base itself.
+fn tree_of(model: &RobotModel, body: usize) -> Option<(Vec<usize>, Vec<usize>)> {
+    let chain = chain_to(model, body);
+    Some((subtree(model, *chain.first()?), chain))
 }
 
 /// Joints from the base to `body`.

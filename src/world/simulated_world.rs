@@ -29,6 +29,8 @@ pub struct WorldSettings<'a> {
     pub grasp: &'a str,
     /// The working arm's posture at the start (rad).
     pub posture_rad: &'a [f64],
+    /// Link that is the tool of the other arm; `None` when no other arm moves.
+    pub idle_tool: Option<&'a str>,
     /// The other arm's posture (rad).
     pub idle_posture_rad: &'a [f64],
     /// Dry friction of each joint of the working arm, besides the robot's own (N m).
@@ -69,9 +71,11 @@ impl World {
         let mut engine = physics::engine(settings.physics);
         let mut parts = Parts::default();
         let model = settings.robot;
-        let limbs = Limbs::find(model, settings.tool, settings.grasp, settings.idle_posture_rad.len())?;
-        let (working_q, finger_range) = starting_positions(model, &limbs, settings.posture_rad)?;
-        let mut robot = RobotBody::new(&mut engine, model, &limbs, &working_q, settings.idle_posture_rad, &mut parts)?;
+        let limbs = Limbs::find(model, settings.tool, settings.grasp, settings.idle_tool)?;
+        let working_q = starting_positions(model, &limbs.working, &limbs.arm, settings.posture_rad)?;
+        let idle_q = starting_positions(model, &limbs.idle, &limbs.idle_arm, settings.idle_posture_rad)?;
+        let finger_range = limbs.fingers.first().map(|&dof| &model.joints[limbs.working[dof]]).map(|joint| (joint.lower, joint.upper));
+        let mut robot = RobotBody::new(&mut engine, model, &limbs, &working_q, &idle_q, &mut parts)?;
         for &dof in &limbs.arm {
             let own = model.joints[limbs.working[dof]].friction;
             robot.working.set_friction(&mut engine, dof, own + settings.dry_friction_nm);
@@ -113,8 +117,7 @@ impl World {
     /// Tells the other arm what to do in the next step.
     pub fn command_idle_arm(&mut self, command: &JointCommand) {
         if let Some(idle) = &mut self.robot.idle {
-            let dofs: Vec<usize> = (0..idle.drives.len()).collect();
-            idle.command(&dofs, command);
+            idle.command(&self.limbs.idle_arm, command);
         }
     }
 
@@ -210,7 +213,7 @@ impl World {
 
     /// Number of joints of the other arm.
     pub fn idle_joints(&self) -> usize {
-        self.limbs.idle.len()
+        self.limbs.idle_arm.len()
     }
 
     /// Joint angles and velocities of the working arm (rad, rad/s).
@@ -224,7 +227,7 @@ impl World {
     /// Joint angles and velocities of the other arm (rad, rad/s).
     pub fn read_idle_arm(&self, q: &mut [f64], v: &mut [f64]) {
         if let Some(idle) = &self.robot.idle {
-            idle.read(&self.engine, q, v);
+            idle.read_some(&self.engine, &self.limbs.idle_arm, q, v);
         }
     }
 
@@ -318,29 +321,25 @@ fn state_of(body: &RigidBody) -> [f64; 13] {
 /// Range of a gripper's leading finger: where it is closed and where it is open (m).
 type FingerRange = Option<(f64, f64)>;
 
-/// Positions of the working tree at the start (the arm's posture and an open gripper), and the gripper's range.
-fn starting_positions(model: &RobotModel, limbs: &Limbs, posture: &[f64]) -> Result<(Vec<f64>, FingerRange), WorldError> {
-    if posture.len() != limbs.arm.len() {
+/// Positions of the joints of a tree at the start: the arm's posture, and fingers that are open.
+fn starting_positions(model: &RobotModel, tree: &[usize], arm: &[usize], posture: &[f64]) -> Result<Vec<f64>, WorldError> {
+    if posture.len() != arm.len() {
         return Err(WorldError::Robot {
             robot: model.name.clone(),
-            what: format!("arm of {} joints (its arm has {})", posture.len(), limbs.arm.len()),
+            what: format!("arm of {} joints (its arm has {})", posture.len(), arm.len()),
             help: "give one angle per joint".into(),
         });
     }
-    let mut positions = vec![0.0; limbs.working.len()];
-    for (&dof, &angle) in limbs.arm.iter().zip(posture) {
+    let mut positions: Vec<f64> =
+        tree.iter().map(|&joint| &model.joints[joint]).map(|joint| if joint.upper.is_finite() { joint.upper } else { 0.0 }).collect();
+    for (&dof, &angle) in arm.iter().zip(posture) {
         positions[dof] = angle;
     }
-    let mut range = None;
-    for &dof in &limbs.fingers {
-        let joint = &model.joints[limbs.working[dof]];
+    for (dof, joint) in tree.iter().map(|&joint| &model.joints[joint]).enumerate() {
         if let Some(mimic) = &joint.mimic {
-            let leader = limbs.working.iter().position(|&j| j == mimic.joint).map_or(0.0, |place| positions[place]);
+            let leader = tree.iter().position(|&j| j == mimic.joint).map_or(0.0, |place| positions[place]);
             positions[dof] = mimic.multiplier * leader + mimic.offset;
-        } else {
-            positions[dof] = joint.upper;
-            range = range.or(Some((joint.lower, joint.upper)));
         }
     }
-    Ok((positions, range))
+    Ok(positions)
 }

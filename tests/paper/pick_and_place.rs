@@ -159,3 +159,26 @@ fn the_lwr_baseline_touches_a_block_or_misses_the_toy() {
         assert!(!passed(criteria, "blocks_untouched") || !passed(criteria, "toy_in_basket"));
     }
 }
+
+#[test]
+fn the_official_robot_executes_the_skill() {
+    let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/baxter_description/urdf/baxter.urdf");
+    if !urdf.exists() {
+        println!("skipped: {} is not there", urdf.display());
+        return;
+    }
+    let mut scenario = scenario("pick_and_place.toml");
+    scenario.experiment.robot.urdf = Some(urdf);
+    let (_, criteria) = executed(&scenario, &taught().1, 0.235, -0.04, 5);
+    all_as_expected(&[(-0.04, criteria)]);
+}
+
+/// The person of another seed teaches other lessons, and the whole run still ends well.
+#[test]
+fn another_teacher_teaches_as_well() {
+    let mut scenario = scenario("pick_and_place.toml");
+    scenario.experiment.seed = 11;
+    let outcome = cpdmp::simulation::run(&scenario.experiment, &Silent).expect("a whole run");
+    let criteria = judge(&outcome, &scenario.experiment, &scenario.criteria);
+    all_as_expected(&[(0.05, criteria)]);
+}

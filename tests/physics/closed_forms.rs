@@ -43,6 +43,7 @@ fn a_pendulum_swings_with_the_period_of_its_inertia() {
         tool: "bob",
         grasp: "rod",
         posture_rad: &[amplitude],
+        idle_tool: None,
         idle_posture_rad: &[],
         dry_friction_nm: 0.0,
         objects: &[],

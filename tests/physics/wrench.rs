@@ -95,7 +95,8 @@ fn with_baxter_s_errors_the_estimate_is_noisy_but_bounded() {
     let mean = forces.iter().sum::<Vector3<f64>>() / forces.len() as f64;
     let spread = (forces.iter().map(|f| (f - mean).norm_squared()).sum::<f64>() / forces.len() as f64).sqrt();
     println!("mean error {:.3} N, standard deviation {spread:.3} N", (mean - push).norm());
-    assert!((mean - push).norm() < 3.0 && spread < 3.0);
+    // Measured 1.9 N and 1.1 N: mostly bias, which the skill's force model learns with the skill.
+    assert!((mean - push).norm() < 2.5 && spread < 1.5);
     assert!(spread > 1e-3, "the errors are switched on");
 }
 

@@ -21,6 +21,7 @@ pub fn world(robot: &RobotModel, posture: &[f64], objects: &[Object], gravity: [
         tool: "left_gripper_tool",
         grasp: "left_hand",
         posture_rad: posture,
+        idle_tool: Some("right_hand"),
         idle_posture_rad: &[0.6, -0.6, 0.0, 1.6, 0.0, 0.6, 0.0],
         dry_friction_nm,
         objects,

@@ -1,0 +1,112 @@
+//! What can be known before the first step: can the way be reached, does everything stand apart, do the demonstrations fit.
+
+use nalgebra::{Isometry3, Translation3};
+
+use super::guide_path::GuidePath;
+use super::setup::Setup;
+use super::teaching::settings_of;
+use super::{DemonstrationSource, SimulationError, TeachingPlan};
+use crate::control::WRENCH_COLUMNS;
+use crate::demonstration::{Dataset, Trajectory};
+use crate::math;
+use crate::world::{Object, ObjectKind, Parameters, pointing_down};
+
+/// Columns that a motion of the tool must begin with.
+const PLACE_COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
+
+impl Setup {
+    /// Checks everything that needs no simulation: every way-point of every lesson can be reached, nothing starts inside something else or
+    /// hangs in the air, a recorded dataset fits the experiment.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn preflight(&self) -> Result<(), SimulationError> {
+        let start = match &self.experiment.demonstrations {
+            DemonstrationSource::Teach(plan) => self.lessons_can_be_led(plan)?,
+            DemonstrationSource::Dataset(folder) => {
+                let dataset = Dataset::read(folder)?;
+                self.fits(&dataset)?;
+                dataset.demonstrations.first().and_then(|lesson| first_pose(&lesson.trajectory))
+            }
+        };
+        self.stands(&self.experiment.parameters)?;
+        if let Some(start) = start {
+            let posture = self.posture(&start, "the start of the demonstrations")?;
+            self.world(&self.experiment.parameters, &posture, false)?;
+        }
+        Ok(())
+    }
+
+    /// Whether the columns and parameters of a dataset are those that the experiment needs.
+    ///
+    /// # Errors
+    /// When they are not.
+    pub fn fits(&self, dataset: &Dataset) -> Result<(), SimulationError> {
+        let refuse = |what: String| Err(SimulationError::Mismatch(what));
+        if dataset.motion.len() < 3 || dataset.motion.iter().zip(PLACE_COLUMNS).any(|(found, wanted)| found != wanted) {
+            return refuse(format!("their motion is [{}], but must begin with x_m, y_m, z_m of the tool", dataset.motion.join(", ")));
+        }
+        if let Some(unknown) = dataset.wrench.iter().find(|name| !WRENCH_COLUMNS.contains(&name.as_str())) {
+            return refuse(format!("the arm does not measure `{unknown}` of their wrench, only {}", WRENCH_COLUMNS.join(", ")));
+        }
+        let experiment = &self.experiment;
+        for (key, told, found) in
+            [("theta_m", &experiment.theta_m, dataset.parameters_m()), ("theta_f", &experiment.theta_f, dataset.parameters_f())]
+        {
+            let (mut told, mut found) = (told.clone(), found);
+            told.sort();
+            found.sort();
+            if told != found {
+                return refuse(format!("learning.{key} is [{}], but theirs is [{}]", told.join(", "), found.join(", ")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves every lesson's way-points and builds its world; the pose at which the first lesson starts.
+    fn lessons_can_be_led(&self, plan: &TeachingPlan) -> Result<Option<Isometry3<f64>>, SimulationError> {
+        let mut first = None;
+        for (number, parameters) in settings_of(plan, &self.experiment.parameters).iter().enumerate() {
+            let mut variation = math::stream(self.experiment.seed, "human", number as u64);
+            let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
+            let pose = |time_s: f64| Isometry3::from_parts(path.at(time_s).0.into(), pointing_down(plan.tool_yaw_rad));
+            for (k, waypoint) in plan.waypoints.iter().enumerate() {
+                let place = waypoint.at.as_deref().unwrap_or("the world");
+                self.posture(&pose(waypoint.time_s), &format!("way-point {} (at {place}) of lesson {}", k + 1, number + 1))?;
+            }
+            self.stands(parameters)?;
+            let start = pose(0.0);
+            let posture = self.posture(&start, "the first way-point")?;
+            self.world(parameters, &posture, false)?;
+            first = first.or(Some(start));
+        }
+        Ok(first)
+    }
+
+    /// Everything that can fall lies on a table: there is no floor.
+    fn stands(&self, parameters: &Parameters) -> Result<(), SimulationError> {
+        let objects = &self.experiment.objects;
+        let hanging = objects.iter().filter(|o| o.is_movable()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
+        match hanging {
+            None => Ok(()),
+            Some(object) => {
+                let center = object.center(parameters);
+                let place = format!("[{:.3}, {:.3}] m", center.x, center.y);
+                Err(SimulationError::Scene(format!("object `{}` at {place} lies on no table and would fall for ever", object.name)))
+            }
+        }
+    }
+}
+
+fn carries(table: &Object, object: &Object, parameters: &Parameters) -> bool {
+    let ObjectKind::Table { size_m, .. } = &table.kind else { return false };
+    let away = object.center(parameters) - table.center(parameters);
+    away.x.abs() <= size_m.x / 2.0 && away.y.abs() <= size_m.y / 2.0
+}
+
+/// The tool's pose at the start of a demonstration, if it has an orientation.
+fn first_pose(trajectory: &Trajectory) -> Option<Isometry3<f64>> {
+    let place = trajectory.select(&PLACE_COLUMNS).ok()?;
+    let orientation = *trajectory.orientations()?.first()?;
+    Some(Isometry3::from_parts(Translation3::new(place[(0, 0)], place[(0, 1)], place[(0, 2)]), orientation))
+}
