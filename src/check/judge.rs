@@ -1,7 +1,5 @@
 //! Answers a scenario's criteria.
 
-use nalgebra::Vector3;
-
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
