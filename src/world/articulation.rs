@@ -6,34 +6,16 @@
 use nalgebra::{DMatrix, Isometry3, Translation3};
 use rapier3d_f64::prelude::{
     GenericJoint, GenericJointBuilder, JointAxesMask, JointAxis, MassProperties, MotorModel, MultibodyDofCoupling, MultibodyJointHandle,
-    PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle, Vector,
+    PhysicsWorld, Pose, RigidBodyBuilder, Vector,
 };
 
 use super::convert;
+use super::drive::Drive;
 use crate::robot::{Joint, JointCommand, JointKind, RobotModel};
 
 /// Stiffness (N/m) and damping (N s/m) with which the gripper's drive seeks its commanded opening; its force limit is the joint's effort limit.
 const GRIPPER_STIFFNESS_N_PER_M: f64 = 2000.0;
 const GRIPPER_DAMPING_NS_PER_M: f64 = 60.0;
-
-/// One moving joint in the engine.
-pub(super) struct Drive {
-    /// Its index in the robot model.
-    pub joint: usize,
-    parent: RigidBodyHandle,
-    pub link: RigidBodyHandle,
-    axis: Vector,
-    effort_limit: f64,
-    velocity_limit: f64,
-    /// Inertia that the drive moves when the other joints are free, in the first posture (kg m² or kg).
-    inertia: f64,
-    passive_damping: f64,
-    /// The drive's effort in the last step (N m or N).
-    pub effort: f64,
-    /// By how much that was over the limit; taken back in the next step (N m or N).
-    excess: f64,
-    command: (f64, f64),
-}
 
 /// A tree of joints that hangs on a fixed body: an arm with its gripper.
 pub(super) struct Articulation {
@@ -196,7 +178,7 @@ impl Articulation {
     /// After the step: what each drive delivered, with the damping at the new velocity.
     ///
     /// The damping reacts to the velocity at the end of the step, so an impact may carry the effort over its limit for that step. What was
-    /// over is taken back in the next one: over any two steps the mean effort is within the limit.
+    /// over is taken back in the next one, so over a stretch of steps the mean effort exceeds the limit by no more than one step's share.
     pub(super) fn settle_efforts(&mut self, engine: &PhysicsWorld) {
         let Some((multibody, _)) = engine.multibody_joints.get(self.handle) else { return };
         for (i, drive) in self.drives.iter_mut().enumerate() {
@@ -224,31 +206,6 @@ impl Articulation {
         let augmented = inverse.try_inverse()?;
         let implicit = (multibody.damping() * engine.integration_parameters.dt) + multibody.armature();
         Some(augmented - DMatrix::from_diagonal(&implicit))
-    }
-}
-
-impl Drive {
-    fn new(index: usize, joint: &Joint, parent: RigidBodyHandle, link: RigidBodyHandle) -> Self {
-        Self {
-            joint: index,
-            parent,
-            link,
-            axis: if joint.kind == JointKind::Prismatic { Vector::ZERO } else { convert::vector(&joint.axis) },
-            effort_limit: joint.effort_limit,
-            velocity_limit: joint.velocity_limit,
-            inertia: f64::INFINITY,
-            passive_damping: joint.damping,
-            effort: 0.0,
-            excess: 0.0,
-            command: (0.0, 0.0),
-        }
-    }
-
-    /// `torque` within the effort limit, and no more than takes the joint to its velocity limit within the step; beyond that limit it brakes.
-    fn limited(&self, torque: f64, velocity: f64, step_s: f64) -> f64 {
-        let push = |limit: f64| (limit - velocity) * self.inertia / step_s;
-        let within = torque.min(push(self.velocity_limit)).max(push(-self.velocity_limit));
-        within.clamp(-self.effort_limit, self.effort_limit)
     }
 }
 

@@ -28,6 +28,13 @@ center_m = [0.6, 0.1]
 radius_m = 0.03
 mass_kg = 0.05
 
+[[object]]
+name = "table"
+kind = "table"
+center_m = [0.62, 0.12]
+size_m = [0.3, 0.4]
+top_height_m = 0.0
+
 [teaching]
 duration_s = 4.0
 position_spread_m = 0.002

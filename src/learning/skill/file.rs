@@ -55,7 +55,11 @@ impl Skill {
         let text = self.to_json()?;
         let io = |source| LearningError::Io { path: path.to_owned(), source };
         let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let beside = tempfile::NamedTempFile::new_in(parent).map_err(io)?;
+        let mut builder = tempfile::Builder::new();
+        // A temporary file is private; a skill is a file like any other.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+        let beside = builder.tempfile_in(parent).map_err(io)?;
         std::fs::write(beside.path(), text).map_err(io)?;
         beside.persist(path).map_err(|e| io(e.error))?;
         Ok(())
