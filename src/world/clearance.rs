@@ -1,8 +1,8 @@
 //! Smallest distances between the working arm (with what it holds) and the fixed objects, by exact geometry.
 
 use nalgebra::Point3;
-use rapier3d_f64::parry::bounding_volume::BoundingVolume;
-use rapier3d_f64::parry::query;
+use parry3d_f64::bounding_volume::BoundingVolume;
+use parry3d_f64::query;
 use rapier3d_f64::prelude::{Aabb, Collider, PhysicsWorld};
 
 use super::convert;

@@ -1,7 +1,7 @@
 //! Refuses a scene in which something starts inside something else: the engine would throw it out.
 
-use rapier3d_f64::parry::bounding_volume::BoundingVolume;
-use rapier3d_f64::parry::query;
+use parry3d_f64::bounding_volume::BoundingVolume;
+use parry3d_f64::query;
 use rapier3d_f64::prelude::{Collider, PhysicsWorld};
 
 use super::WorldError;

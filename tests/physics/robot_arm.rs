@@ -46,8 +46,7 @@ impl Spread {
 /// The official Baxter description, which a stranger does not have.
 pub fn official_path() -> Option<PathBuf> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/baxter_description/urdf/baxter.urdf");
-    let paths = [path, PathBuf::from("/work/shared/baxter_description/urdf/baxter.urdf")];
-    let found = paths.into_iter().find(|path| path.is_file());
+    let found = path.is_file().then_some(path);
     if found.is_none() {
         eprintln!("skipped: no official Baxter description beside the checkout");
     }
