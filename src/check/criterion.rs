@@ -57,7 +57,8 @@ pub enum CriterionKind {
         /// The largest force (N).
         max_n: f64,
     },
-    /// The arm complies when the gripper closes, and is stiff while the hand is over any of the objects. Value: seconds to spare.
+    /// The arm complies when the gripper closes, and is stiff while the hand is over any of the objects. Value: seconds to
+    /// spare. There is no answer when the hand never comes to one of the objects.
     ComplianceWindow {
         /// The objects at which the arm must be stiff.
         stiff_at: Vec<String>,

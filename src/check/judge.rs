@@ -137,7 +137,12 @@ fn compliance_window(steps: &[StepRecord], experiment: &Experiment, stiff_at: &[
     let inside = |w: &Window| (closing.time_s - w.start_s).min(w.end_s - closing.time_s);
     let mut spare_s = windows.iter().map(inside).fold(-last.time_s, f64::max);
     let mut failed = (spare_s < 0.0).then_some(closing.time_s);
-    for passage in stiff_at.iter().flat_map(|object| passages(steps, experiment, object)) {
+    let passages: Vec<Vec<Window>> = stiff_at.iter().map(|object| passages(steps, experiment, object)).collect();
+    if passages.iter().any(Vec::is_empty) {
+        // A hand that never came to one of the objects has not shown that it is stiff there.
+        return Answer::at_least(f64::NAN, 0.0, "s");
+    }
+    for passage in passages.iter().flatten() {
         for window in &windows {
             let gap_s = (window.start_s - passage.end_s).max(passage.start_s - window.end_s);
             spare_s = spare_s.min(gap_s);

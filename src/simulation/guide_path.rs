@@ -57,6 +57,11 @@ impl GuidePath {
         }
     }
 
+    /// The places that this way goes through (m), in the order of the plan's way-points.
+    pub(super) fn knots(&self) -> &[Vector3<f64>] {
+        &self.points
+    }
+
     /// Place (m), velocity (m/s) and commanded opening at `time_s`; before the first and after the last knot the ends.
     pub(super) fn at(&self, time_s: f64) -> (Point3<f64>, Vector3<f64>, f64) {
         let after = self.times_s.partition_point(|t| *t <= time_s);

@@ -1,6 +1,6 @@
 //! What can be known before the first step: can the way be reached, does everything stand apart, do the demonstrations fit.
 
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::guide_path::GuidePath;
 use super::setup::Setup;
@@ -69,16 +69,18 @@ impl Setup {
         for (number, parameters) in settings_of(plan, &self.experiment.parameters).iter().enumerate() {
             let mut variation = math::stream(self.experiment.seed, "human", number as u64);
             let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
-            let pose = |time_s: f64| Isometry3::from_parts(path.at(time_s).0.into(), pointing_down(plan.tool_yaw_rad));
-            for (k, waypoint) in plan.waypoints.iter().enumerate() {
+            let pose = |knot: &Vector3<f64>| Isometry3::from_parts(Translation3::from(*knot), pointing_down(plan.tool_yaw_rad));
+            let mut start = None;
+            for (k, (waypoint, knot)) in plan.waypoints.iter().zip(path.knots()).enumerate() {
                 let place = waypoint.at.as_deref().unwrap_or("the world");
-                self.posture(&pose(waypoint.time_s), &format!("way-point {} (at {place}) of lesson {}", k + 1, number + 1))?;
+                let posture = self.posture(&pose(knot), &format!("way-point {} (at {place}) of lesson {}", k + 1, number + 1))?;
+                start = start.or(Some((pose(knot), posture)));
             }
             self.stands(parameters)?;
-            let start = pose(0.0);
-            let posture = self.posture(&start, "the first way-point")?;
-            self.world(parameters, &posture, false)?;
-            first = first.or(Some(start));
+            if let Some((pose, posture)) = start {
+                self.world(parameters, &posture, false)?;
+                first = first.or(Some(pose));
+            }
         }
         Ok(first)
     }
