@@ -8,8 +8,8 @@ use super::orientation::OrientationSample;
 use super::phmm::{Fit, Sequence, fit};
 use super::prepare::{Prepared, prepare};
 use super::{
-    GripperProfile, LearningError, LearningReport, LearningSettings, LinearMap, OrientationProfile, ParameterSpace, ShapingKind, Skill,
-    warnings,
+    FeatureMap, GripperProfile, LearningError, LearningReport, LearningSettings, LinearMap, OrientationProfile, ParameterSpace,
+    ShapingKind, Skill, warnings,
 };
 use crate::demonstration::Dataset;
 
@@ -33,7 +33,7 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
     let mut warnings = warnings::about_data(dataset, &prepared);
     let (motion, force) = rayon::join(|| motion_fit(dataset, &prepared, settings, seed), || force_fit(dataset, &prepared, settings, seed));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
-    let motion = motion_model(dataset, &prepared, settings, shaping)?;
+    let motion = motion_model(dataset, &prepared, settings, shaping, seed)?;
     let (force, force_fit) = force.map_or((None, None), |(model, fit)| (Some(model), Some(fit)));
     let orientation = orientation_profile(&prepared, settings);
     let gripper = gripper_profile(&prepared, &mut warnings);
@@ -64,7 +64,8 @@ fn motion_fit(dataset: &Dataset, prepared: &[Prepared], settings: &LearningSetti
         let lwr = Lwr::fit(&phases, &DMatrix::from_rows(&all), settings.lwr_basis, settings.alpha)?;
         return Ok((Shaping::Lwr(lwr), None, Compliance::stiff(0, d)));
     }
-    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(settings)).collect();
+    let features = motion_features(prepared, settings, seed);
+    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(settings).seen_through(&features)).collect();
     let fit = fit(&sequences, &settings.motion, seed)?;
     let noise = forcing_noise(prepared).max();
     let spreads = state_spreads(&fit.model, &sequences)?;
@@ -81,12 +82,13 @@ fn force_fit(
     if dataset.wrench.is_empty() || settings.shaping == ShapingKind::Lwr {
         return Ok(None);
     }
-    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.force_sequence(settings)).collect();
-    let fit = fit(&sequences, &settings.force, seed)?;
     let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_f.clone()).collect();
+    let features = FeatureMap::of(settings.force.features, &thetas, seed);
+    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.force_sequence(settings).seen_through(&features)).collect();
+    let fit = fit(&sequences, &settings.force, seed)?;
     let model = ForceModel {
         columns: dataset.wrench.clone(),
-        parameters: ParameterSpace::of(dataset.parameters_f(), &thetas),
+        parameters: ParameterSpace::of(dataset.parameters_f(), &thetas).with_features(features),
         phase_input: settings.phase_input,
         phmm: fit.model.clone(),
     };
@@ -98,13 +100,16 @@ fn motion_model(
     prepared: &[Prepared],
     settings: &LearningSettings,
     shaping: Shaping,
+    seed: u64,
 ) -> Result<MotionModel, LearningError> {
     let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_m.clone()).collect();
     let blind = settings.shaping == ShapingKind::Lwr;
+    let features = motion_features(prepared, settings, seed);
+    let phis: Vec<DVector<f64>> = thetas.iter().map(|theta| features.at(theta)).collect();
     let ends = |values: Vec<DVector<f64>>| -> Result<LinearMap, LearningError> {
-        let p = thetas[0].len();
+        let q = phis[0].len();
         let mean = values.iter().sum::<DVector<f64>>() / values.len() as f64;
-        if blind { Ok(LinearMap::constant(mean, p)) } else { LinearMap::fit(&thetas, &values) }
+        if blind { Ok(LinearMap::constant(mean, q)) } else { LinearMap::fit(&phis, &values) }
     };
     Ok(MotionModel {
         stiffness: settings.stiffness,
@@ -115,9 +120,18 @@ fn motion_model(
         columns: dataset.motion.clone(),
         start: ends(prepared.iter().map(|p| p.start.clone()).collect())?,
         goal: ends(prepared.iter().map(|p| p.goal.clone()).collect())?,
-        parameters: ParameterSpace::of(dataset.parameters_m(), &thetas),
+        parameters: ParameterSpace::of(dataset.parameters_m(), &thetas).with_features(features),
         shaping,
     })
+}
+
+/// The features of `theta_m`; linear for the baseline, which is blind to parameters.
+fn motion_features(prepared: &[Prepared], settings: &LearningSettings, seed: u64) -> FeatureMap {
+    if settings.shaping == ShapingKind::Lwr {
+        return FeatureMap::Linear;
+    }
+    let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_m.clone()).collect();
+    FeatureMap::of(settings.motion.features, &thetas, seed)
 }
 
 fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Option<OrientationProfile> {

@@ -12,6 +12,7 @@ pub mod cpdmp;
 pub mod dmp;
 mod error;
 mod execution;
+mod features;
 mod gmr;
 mod gripper;
 mod learn;
@@ -27,6 +28,7 @@ mod warnings;
 
 pub use error::{LearningError, SettingFault};
 pub use execution::{ExecutionSettings, SkillExecution, SkillState, TaskSpaceState, generate, task_space_states};
+pub use features::{FeatureMap, Features, Standard};
 pub use gmr::Gmr;
 pub use gripper::GripperProfile;
 pub use learn::{Learned, learn};

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::LearningError;
+use super::{FeatureMap, LearningError};
 
 /// Names of parameters and the range in which they were demonstrated.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -11,17 +11,31 @@ pub struct ParameterSpace {
     pub names: Vec<String>,
     /// Smallest and largest demonstrated value of each (p).
     pub ranges: Vec<[f64; 2]>,
+    /// What the models see of the parameters.
+    pub features: FeatureMap,
 }
 
 impl ParameterSpace {
-    /// From the values of every demonstration (K of p).
+    /// From the values of every demonstration (K of p), with linear features.
     #[must_use]
     pub fn of(names: Vec<String>, thetas: &[DVector<f64>]) -> Self {
         let range = |j: usize| {
             let values = thetas.iter().map(|theta| theta[j]);
             [values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max)]
         };
-        Self { ranges: (0..names.len()).map(range).collect(), names }
+        Self { ranges: (0..names.len()).map(range).collect(), names, features: FeatureMap::Linear }
+    }
+
+    /// The same parameters, seen through other features.
+    #[must_use]
+    pub fn with_features(self, features: FeatureMap) -> Self {
+        Self { features, ..self }
+    }
+
+    /// Number of features (q).
+    #[must_use]
+    pub fn feature_count(&self) -> usize {
+        self.features.count(self.names.len())
     }
 
     /// Values in the order of the names (p).

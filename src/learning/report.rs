@@ -70,6 +70,7 @@ impl LearningReport {
         forcing_noise: Vec<f64>,
         warnings: Vec<String>,
     ) -> Result<Self, LearningError> {
+        let phi = skill.motion.parameters.features.at(theta);
         let mut shaping = skill.motion.shaping_at(theta)?;
         let segments = segments(&mut shaping);
         let duration = skill.motion.duration_s;
@@ -81,7 +82,7 @@ impl LearningReport {
                     StateReport {
                         index: i,
                         active: start.zip(active.last()).map(|(start, last)| [start, last.end]),
-                        mean: phmm.mean_at(i, theta).iter().copied().collect(),
+                        mean: phmm.mean_at(i, &phi).iter().copied().collect(),
                         value_m2: skill.compliance.values_m2[i],
                         beta: skill.compliance.beta[i],
                     }

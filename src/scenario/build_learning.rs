@@ -3,8 +3,8 @@
 use super::tree::Node;
 use crate::learning::cpdmp::{ComplianceSettings, CouplingSettings, ForceConvention, Statistic, Switching, Threshold};
 use crate::learning::dmp::PhaseInput;
-use crate::learning::phmm::{PhmmSettings, Topology};
-use crate::learning::{LearningSettings, ShapingKind};
+use crate::learning::phmm::{CovarianceMode, PhmmSettings, Topology};
+use crate::learning::{Features, LearningSettings, ShapingKind};
 
 /// How the skill is learned.
 pub(super) fn learning(table: &Node) -> LearningSettings {
@@ -30,6 +30,12 @@ fn hidden_markov_model(table: &Node) -> PhmmSettings {
         states: table.size("states"),
         topology: if table.text("topology") == "ergodic" { Topology::Ergodic } else { Topology::LeftToRight },
         weights_on_phase: table.flag("weights_on_phase"),
+        features: match table.text("features") {
+            "quadratic" => Features::Quadratic,
+            "rbf" => Features::Rbf { centres: table.size("rbf_centres"), width: table.number("rbf_width") },
+            _ => Features::Linear,
+        },
+        covariance: if table.text("covariance") == "fixed" { CovarianceMode::Fixed } else { CovarianceMode::Estimated },
         ridge: table.number("ridge"),
         covariance_floor: table.number("covariance_floor"),
         kmeans_starts: table.count("kmeans_starts"),

@@ -179,13 +179,24 @@ const LEARNING: Shape = Shape::plain(&[
 const MOTION_MODEL: Shape = Shape::plain(&hidden_markov_model(16));
 const FORCE_MODEL: Shape = Shape::plain(&hidden_markov_model(10));
 
-const fn hidden_markov_model(states: i64) -> [Key; 8] {
+const fn hidden_markov_model(states: i64) -> [Key; 12] {
     [
         Key::new("states", Count(1, 200), "number of states").or(Preset::Count(states)),
         Key::new("topology", Choice(&["left_to_right", "ergodic"]), "which transitions exist").or(Preset::Text("left_to_right")),
         Key::new("weights_on_phase", Flag, "whether parameters also move the phase at which a state sits").or(Preset::Flag(false)),
+        Key::new("features", Choice(&["linear", "quadratic", "rbf"]), "functions of the parameters that the means are linear in")
+            .or(Preset::Text("linear")),
+        Key::new("rbf_centres", Count(1, 200), "most bumps of the rbf features").or(Preset::Count(9)),
+        Key::new("rbf_width", Number(within("", 0.1, 100.0)), "width of a bump, as a multiple of the distance between neighbours")
+            .or_number(1.5),
+        Key::new(
+            "covariance",
+            Choice(&["estimated", "fixed"]),
+            "whether covariances are learned with the parameters, or kept from the model without",
+        )
+        .or(Preset::Text("estimated")),
         Key::new("ridge", Number(within("", 0.0, 1e6)), "strength of the prior W = 0, as a number of demonstrations").or_number(0.1),
-        Key::new("covariance_floor", Number(within("", 1e-12, 0.1)), "smallest eigenvalue of a covariance, columns scaled to 1")
+        Key::new("covariance_floor", Number(within("", 0.0, 0.1)), "smallest eigenvalue of a covariance, columns scaled to 1; 0 for none")
             .or_number(1e-5),
         Key::new("kmeans_starts", Count(0, 1000), "starts by k-means, besides the two by time slices").or(Preset::Count(4)),
         Key::new("max_iterations", Count(1, 100_000), "most iterations of each stage").or(Preset::Count(200)),

@@ -1,7 +1,8 @@
 //! Laws the learning room must obey whatever the data: expectation maximisation climbs, its steps are maxima, deviations stay within their
 //! bounds, files come back bit for bit, and threads change nothing.
 
-use cpdmp::learning::phmm::{FitStatus, Group, Penalty, PhmmSettings, Sequence, Topology, fit, maximise_state, refine};
+use cpdmp::learning::Features;
+use cpdmp::learning::phmm::{CovarianceMode, FitStatus, Group, Penalty, PhmmSettings, Sequence, Topology, fit, maximise_state, refine};
 use cpdmp::math::{standard_normal, stream, uniform};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -46,6 +47,8 @@ proptest! {
             states,
             topology: if ergodic { Topology::Ergodic } else { Topology::LeftToRight },
             weights_on_phase: on_phase,
+            features: Features::Linear,
+            covariance: CovarianceMode::Estimated,
             ridge,
             covariance_floor: floor,
             kmeans_starts: 1,
@@ -95,7 +98,7 @@ fn the_maximisation_step_is_a_stationary_point_of_its_objective() {
     for seed in 0..20 {
         for (weights_on_phase, ridge) in [(true, 0.0), (true, 2.0), (false, 0.0), (false, 2.0)] {
             let (groups, thetas) = random_groups(seed);
-            let penalty = Penalty { ridge, floor: 1e-9, weights_on_phase, parametric: true };
+            let penalty = Penalty { ridge, floor: 1e-9, weights_on_phase, parametric: true, fixed_covariance: false };
             let present = (DMatrix::zeros(3, 2), DMatrix::identity(3, 3));
             let (w, mean, c) =
                 maximise_state(&groups.iter().collect::<Vec<_>>(), &thetas.iter().collect::<Vec<_>>(), (&present.0, &present.1), &penalty)
@@ -124,7 +127,7 @@ fn a_floored_step_still_raises_the_objective_above_any_feasible_present() {
     for seed in 0..200 {
         let (groups, thetas) = random_groups(seed);
         let (references, parameters): (Vec<_>, Vec<_>) = (groups.iter().collect(), thetas.iter().collect());
-        let penalty = Penalty { ridge: 0.5, floor: 1.5, weights_on_phase: false, parametric: true };
+        let penalty = Penalty { ridge: 0.5, floor: 1.5, weights_on_phase: false, parametric: true, fixed_covariance: false };
         let mut present = (DMatrix::zeros(3, 2), DVector::zeros(3), DMatrix::identity(3, 3) * 2.0);
         let mut before = objective(&groups, &thetas, &penalty, &present.0, &present.1, &present.2);
         for _ in 0..10 {

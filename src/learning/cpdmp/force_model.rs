@@ -25,7 +25,8 @@ impl ForceModel {
     /// # Errors
     /// When the model's covariances are not positive definite.
     pub fn regression_at(&self, theta: &DVector<f64>) -> Result<Gmr, LearningError> {
-        let means: Vec<DVector<f64>> = (0..self.phmm.states()).map(|i| self.phmm.mean_at(i, theta)).collect();
+        let phi = self.parameters.features.at(theta);
+        let means: Vec<DVector<f64>> = (0..self.phmm.states()).map(|i| self.phmm.mean_at(i, &phi)).collect();
         Gmr::new(&means, &self.phmm.covariances, 1)
     }
 }

@@ -33,9 +33,9 @@ pub struct MotionModel {
     pub columns: Vec<String>,
     /// Parameters `theta_m` (p).
     pub parameters: ParameterSpace,
-    /// `x0(theta_m)` (d; unit of the columns).
+    /// `x0(phi(theta_m))` (d; unit of the columns).
     pub start: LinearMap,
-    /// `g(theta_m)` (d; unit of the columns).
+    /// `g(phi(theta_m))` (d; unit of the columns).
     pub goal: LinearMap,
     /// The forcing term.
     pub shaping: Shaping,
@@ -49,7 +49,8 @@ impl MotionModel {
     pub fn shaping_at(&self, theta: &DVector<f64>) -> Result<ShapingFunction, LearningError> {
         match &self.shaping {
             Shaping::Phmm(phmm) => {
-                let means: Vec<DVector<f64>> = (0..phmm.states()).map(|i| phmm.mean_at(i, theta)).collect();
+                let phi = self.parameters.features.at(theta);
+                let means: Vec<DVector<f64>> = (0..phmm.states()).map(|i| phmm.mean_at(i, &phi)).collect();
                 let gmr = Gmr::new(&means, &phmm.covariances, 1)?;
                 Ok(ShapingFunction::from_gmr(gmr, self.phase_input, self.alpha, self.gate_start))
             }

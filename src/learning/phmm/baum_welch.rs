@@ -6,7 +6,7 @@ use super::forward_backward::expect;
 use super::maximisation::{Penalty, maximise_state};
 use super::standardisation::Standardisation;
 use super::statistics::{Group, gather};
-use super::{Expectation, Phmm, PhmmSettings, Sequence};
+use super::{CovarianceMode, Expectation, Phmm, PhmmSettings, Sequence};
 use crate::learning::LearningError;
 
 /// How a fit ended.
@@ -24,6 +24,8 @@ pub enum FitStatus {
 
 /// The objective may fall by this fraction of its scale through rounding.
 const ROUNDING: f64 = 1e-9;
+/// Floor for which rounding is allowed when there is none (-).
+const LEAST_FLOOR: f64 = 1e-8;
 /// One climb of the objective.
 pub(super) struct Run {
     pub(super) model: Phmm,
@@ -69,13 +71,14 @@ impl<'a> Problem<'a> {
             floor: self.settings.covariance_floor,
             weights_on_phase: self.settings.weights_on_phase,
             parametric,
+            fixed_covariance: parametric && self.settings.covariance == CovarianceMode::Fixed,
         }
     }
 
     /// What rounding may take from the objective, as a fraction of its scale: a covariance keeps its smallest eigenvalue to
     /// `epsilon / floor` only.
     fn rounding(&self) -> f64 {
-        ROUNDING.max(8.0 * f64::EPSILON / self.settings.covariance_floor)
+        ROUNDING.max(8.0 * f64::EPSILON / self.settings.covariance_floor.max(LEAST_FLOOR))
     }
 
     /// Expectation and maximisation until the objective stands still.

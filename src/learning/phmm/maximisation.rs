@@ -31,6 +31,8 @@ pub struct Penalty {
     pub weights_on_phase: bool,
     /// Whether weights are learned at all; otherwise they stay as they are.
     pub parametric: bool,
+    /// Whether covariances stay as they are: weights and means then maximise `Q_i` for them.
+    pub fixed_covariance: bool,
 }
 
 impl Penalty {
@@ -57,6 +59,11 @@ pub fn maximise_state(
 ) -> Option<(DMatrix<f64>, DVector<f64>, DMatrix<f64>)> {
     let moments = Moments::of(groups, thetas)?;
     let ridge = penalty.ridge / moments.count;
+    if penalty.fixed_covariance {
+        let weights = if penalty.parametric { moments.weights(present.0, Some(present.1), ridge, penalty) } else { present.0.clone() };
+        let mean = &moments.mean - &weights * &moments.theta_mean;
+        return Some((weights, mean, present.1.clone()));
+    }
     let covariance_for = |w: &DMatrix<f64>| clamp_eigenvalues(&(moments.residual_covariance(w) + ridge * w * w.transpose()), penalty.floor);
     let mut weights = if penalty.parametric { moments.weights(present.0, None, ridge, penalty) } else { present.0.clone() };
     let (mut covariance, floored) = covariance_for(&weights);

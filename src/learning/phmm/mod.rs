@@ -31,6 +31,6 @@ pub use forward_backward::{Expectation, expect};
 pub use kmeans::k_means;
 pub use maximisation::{Penalty, maximise_state};
 pub use model::{Phmm, Sequence};
-pub use settings::{PhmmSettings, Start, Topology};
+pub use settings::{CovarianceMode, PhmmSettings, Start, Topology};
 pub use state_chain::{StateChain, TransitionEdge, TransitionGraph, TransitionNode};
 pub use statistics::{Group, gather};

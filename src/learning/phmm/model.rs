@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use crate::learning::LearningError;
+use crate::learning::{FeatureMap, LearningError};
 
 /// One observed sequence, with the parameters it was observed under.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,11 +11,17 @@ pub struct Sequence {
     pub values: Vec<f64>,
     /// Variables per sample (d).
     pub dimension: usize,
-    /// Task parameters (p), constant over the sequence.
+    /// Task parameters, or features of them (p), constant over the sequence.
     pub theta: DVector<f64>,
 }
 
 impl Sequence {
+    /// The same samples, with features of the parameters in their place.
+    #[must_use]
+    pub fn seen_through(self, features: &FeatureMap) -> Self {
+        Self { theta: features.at(&self.theta), ..self }
+    }
+
     /// Number of samples (T).
     #[must_use]
     pub fn samples(&self) -> usize {

@@ -1,6 +1,6 @@
 //! How a parametric hidden Markov model is learned.
 
-use crate::learning::SettingFault;
+use crate::learning::{Features, SettingFault};
 
 /// Which transitions exist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,6 +9,16 @@ pub enum Topology {
     LeftToRight,
     /// Any state to any state. For several kinds of movement in one model (section 4.2 of the paper).
     Ergodic,
+}
+
+/// What becomes of the covariances once parameters are learned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CovarianceMode {
+    /// They are learned with the parameters (section 3.2.1 of the paper).
+    Estimated,
+    /// They stay as the plain model without parameters left them (section 4.3 of the paper): wider, for they hold what the parameters
+    /// explain. Every start then has that plain model as its first stage.
+    Fixed,
 }
 
 /// Where expectation maximisation starts from.
@@ -34,10 +44,14 @@ pub struct PhmmSettings {
     /// Whether parameters also move the phase at which a state sits. Default no: twice as accurate outside the demonstrated range,
     /// equal inside.
     pub weights_on_phase: bool,
+    /// Which functions of the parameters the means are linear in. Default the parameters themselves.
+    pub features: Features,
+    /// Whether covariances are learned with the parameters. Default yes.
+    pub covariance: CovarianceMode,
     /// Strength of the prior `W = 0` (-, 0 to 1e6), as a number of demonstrations with standardised parameters. Default 0.1: the
     /// best of leave-one-out on hand-made demonstrations, and about 1 % of shrinkage for nine.
     pub ridge: f64,
-    /// Smallest eigenvalue of a covariance whose columns are scaled to unit variance (-, 1e-8 to 0.1). Default 1e-5: 0.3 % of a
+    /// Smallest eigenvalue of a covariance whose columns are scaled to unit variance (-, 1e-8 to 0.1, or 0 for none). Default 1e-5: 0.3 % of a
     /// column's standard deviation, well below what people repeat. Below 1e-6 rounding alone moves the likelihood by more than 1e-9.
     pub covariance_floor: f64,
     /// Starts by k-means (0 to 1000), beside the two by time slices. Default 4.
@@ -54,6 +68,8 @@ impl Default for PhmmSettings {
             states: 16,
             topology: Topology::LeftToRight,
             weights_on_phase: false,
+            features: Features::Linear,
+            covariance: CovarianceMode::Estimated,
             ridge: 0.1,
             covariance_floor: 1e-5,
             kmeans_starts: 4,
@@ -73,17 +89,23 @@ impl PhmmSettings {
         };
         check("states", self.states as f64, 1.0, 200.0, "");
         check("ridge", self.ridge, 0.0, 1e6, "demonstrations");
-        check("covariance_floor", self.covariance_floor, 1e-8, 0.1, "");
+        if self.covariance_floor != 0.0 {
+            check("covariance_floor", self.covariance_floor, 1e-8, 0.1, "");
+        }
         check("kmeans_starts", self.kmeans_starts as f64, 0.0, 1000.0, "");
         check("max_iterations", self.max_iterations as f64, 1.0, 1e5, "");
         check("tolerance", self.tolerance, 0.0, 1.0, "");
+        faults.extend(self.features.faults(prefix));
         faults
     }
 
     /// The starts these settings ask for.
     #[must_use]
     pub fn starts(&self) -> Vec<Start> {
-        let slices = [Start::TimeSlices, Start::TimeSlicesGlobal];
-        slices.into_iter().chain((0..self.kmeans_starts).map(Start::KMeans)).collect()
+        let slices: &[Start] = match self.covariance {
+            CovarianceMode::Estimated => &[Start::TimeSlices, Start::TimeSlicesGlobal],
+            CovarianceMode::Fixed => &[Start::TimeSlicesGlobal],
+        };
+        slices.iter().copied().chain((0..self.kmeans_starts).map(Start::KMeans)).collect()
     }
 }

@@ -13,6 +13,8 @@ impl Skill {
         let wrong = |what: String| Err(LearningError::Skill(what));
         let m = &self.motion;
         let (d, p) = (m.columns.len(), m.parameters.names.len());
+        m.parameters.features.check(p)?;
+        let q = m.parameters.feature_count();
         let scalars = [("stiffness", m.stiffness), ("duration_s", m.duration_s), ("alpha", m.alpha)];
         if let Some((name, value)) = scalars.iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
             return wrong(format!("motion.{name} is {value}, but must be positive"));
@@ -24,32 +26,33 @@ impl Skill {
             return wrong(format!("motion has {d} columns, {p} parameters and {} parameter ranges", m.parameters.ranges.len()));
         }
         for (name, map) in [("start", &m.start), ("goal", &m.goal)] {
-            if map.mean.len() != d || map.weights.shape() != (d, p) {
-                return wrong(format!("motion.{name} is not over {d} columns and {p} parameters"));
+            if map.mean.len() != d || map.weights.shape() != (d, q) {
+                return wrong(format!("motion.{name} is not over {d} columns and {q} features"));
             }
             if !finite(map.mean.iter().chain(map.weights.iter())) {
                 return wrong(format!("motion.{name} holds a number that is not finite"));
             }
         }
-        self.check_shaping(d, p)?;
+        self.check_shaping(d, q)?;
         self.check_profiles(p)?;
         if let Some(force) = &self.force {
             force.phmm.check()?;
-            let shape = (force.columns.len() + 1, force.parameters.names.len());
-            if (force.phmm.dimension(), force.phmm.parameters()) != shape || force.parameters.ranges.len() != shape.1 {
-                return wrong(format!("force.phmm is not over the phase, {} columns and {} parameters", shape.0 - 1, shape.1));
+            force.parameters.features.check(force.parameters.names.len())?;
+            let shape = (force.columns.len() + 1, force.parameters.feature_count());
+            if (force.phmm.dimension(), force.phmm.parameters()) != shape || force.parameters.ranges.len() != force.parameters.names.len() {
+                return wrong(format!("force.phmm is not over the phase, {} columns and {} features", shape.0 - 1, shape.1));
             }
         }
         Ok(())
     }
 
-    fn check_shaping(&self, d: usize, p: usize) -> Result<(), LearningError> {
+    fn check_shaping(&self, d: usize, q: usize) -> Result<(), LearningError> {
         let wrong = |what: String| Err(LearningError::Skill(what));
         match &self.motion.shaping {
             Shaping::Phmm(phmm) => {
                 phmm.check()?;
-                if (phmm.dimension(), phmm.parameters()) != (d + 1, p) {
-                    return wrong(format!("motion.phmm is not over the phase, {d} columns and {p} parameters"));
+                if (phmm.dimension(), phmm.parameters()) != (d + 1, q) {
+                    return wrong(format!("motion.phmm is not over the phase, {d} columns and {q} features"));
                 }
             }
             Shaping::Lwr(lwr) => {

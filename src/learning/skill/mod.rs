@@ -52,6 +52,7 @@ impl Skill {
     /// The start `x0` and goal `g` (d each) at `theta` (p).
     #[must_use]
     pub fn ends_at(&self, theta: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
-        (self.motion.start.at(theta), self.motion.goal.at(theta))
+        let phi = self.motion.parameters.features.at(theta);
+        (self.motion.start.at(&phi), self.motion.goal.at(&phi))
     }
 }

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::Skill;
-use super::schema_parts::{ComplianceFile, GripperFile, LwrFile, MapFile, OrientationFile, PhmmFile};
+use super::schema_parts::{ComplianceFile, FeaturesFile, GripperFile, LwrFile, MapFile, OrientationFile, PhmmFile};
 use crate::learning::cpdmp::{Compliance, ForceModel, MotionModel, Shaping};
 use crate::learning::dmp::PhaseInput;
-use crate::learning::{GripperProfile, LearningError, ParameterSpace};
+use crate::learning::{FeatureMap, GripperProfile, LearningError, ParameterSpace};
 
 /// What a file calls itself.
 pub(super) const FORMAT: &str = "cpdmp-skill";
@@ -44,6 +44,9 @@ struct MotionFile {
     parameters: Vec<String>,
     #[serde(default)]
     parameter_ranges: Option<Vec<[f64; 2]>>,
+    /// Absent: linear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    features: Option<FeaturesFile>,
     start: MapFile,
     goal: MapFile,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -62,6 +65,9 @@ struct ForceFile {
     parameters: Vec<String>,
     #[serde(default)]
     parameter_ranges: Option<Vec<[f64; 2]>>,
+    /// Absent: linear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    features: Option<FeaturesFile>,
     phase_input: PhaseInput,
     phmm: PhmmFile,
 }
@@ -83,6 +89,7 @@ impl File {
             columns: m.columns.clone(),
             parameters: m.parameters.names.clone(),
             parameter_ranges: Some(m.parameters.ranges.clone()),
+            features: FeaturesFile::of(&m.parameters.features),
             start: MapFile::of(&m.start),
             goal: MapFile::of(&m.goal),
             phmm,
@@ -92,6 +99,7 @@ impl File {
             columns: f.columns.clone(),
             parameters: f.parameters.names.clone(),
             parameter_ranges: Some(f.parameters.ranges.clone()),
+            features: FeaturesFile::of(&f.parameters.features),
             phase_input: f.phase_input,
             phmm: PhmmFile::of(&f.phmm, history("force")),
         });
@@ -104,12 +112,14 @@ impl File {
 
     pub(super) fn into_skill(self) -> Result<Skill, LearningError> {
         let m = self.motion;
-        let p = m.parameters.len();
+        let parameters = space(m.parameters, m.parameter_ranges, m.features);
+        parameters.features.check(parameters.names.len())?;
+        let q = parameters.feature_count();
         let mut histories = Vec::new();
         let shaping = match (m.phmm, m.lwr) {
             (Some(phmm), None) => {
                 histories.push(("motion".to_owned(), phmm.log_likelihood.clone()));
-                Shaping::Phmm(phmm.into_phmm("motion.phmm", p)?)
+                Shaping::Phmm(phmm.into_phmm("motion.phmm", q)?)
             }
             (None, Some(lwr)) => Shaping::Lwr(lwr.into_lwr(m.columns.len())?),
             _ => return Err(LearningError::Skill("motion needs either phmm or lwr".to_owned())),
@@ -120,17 +130,18 @@ impl File {
             alpha: m.alpha,
             phase_input: m.phase_input,
             gate_start: m.gate_start,
-            start: m.start.into_map("motion.start", p)?,
-            goal: m.goal.into_map("motion.goal", p)?,
+            start: m.start.into_map("motion.start", q)?,
+            goal: m.goal.into_map("motion.goal", q)?,
             columns: m.columns,
-            parameters: space(m.parameters, m.parameter_ranges),
+            parameters,
             shaping,
         };
         let force = match self.force {
             Some(f) => {
                 histories.push(("force".to_owned(), f.phmm.log_likelihood.clone()));
-                let phmm = f.phmm.into_phmm("force.phmm", f.parameters.len())?;
-                let parameters = space(f.parameters, f.parameter_ranges);
+                let parameters = space(f.parameters, f.parameter_ranges, f.features);
+                parameters.features.check(parameters.names.len())?;
+                let phmm = f.phmm.into_phmm("force.phmm", parameters.feature_count())?;
                 Some(ForceModel { columns: f.columns, parameters, phase_input: f.phase_input, phmm })
             }
             None => None,
@@ -147,7 +158,7 @@ impl File {
 }
 
 /// Parameter ranges may be absent in files of other programs: then everything counts as demonstrated.
-fn space(names: Vec<String>, ranges: Option<Vec<[f64; 2]>>) -> ParameterSpace {
+fn space(names: Vec<String>, ranges: Option<Vec<[f64; 2]>>, features: Option<FeaturesFile>) -> ParameterSpace {
     let ranges = ranges.unwrap_or_else(|| vec![[-f64::MAX, f64::MAX]; names.len()]);
-    ParameterSpace { names, ranges }
+    ParameterSpace { names, ranges, features: features.map_or(FeatureMap::Linear, FeaturesFile::into_map) }
 }

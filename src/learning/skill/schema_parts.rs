@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::learning::cpdmp::{Compliance, Statistic};
 use crate::learning::dmp::Lwr;
 use crate::learning::phmm::Phmm;
-use crate::learning::{LearningError, LinearMap, OrientationProfile};
+use crate::learning::{FeatureMap, LearningError, LinearMap, OrientationProfile, Standard};
 
 type Rows = Vec<Vec<f64>>;
 
@@ -54,6 +54,44 @@ pub(super) struct OrientationFile {
 #[derive(Serialize, Deserialize)]
 pub(super) struct GripperFile {
     pub(super) openings: Vec<f64>,
+}
+
+/// Functions of the parameters.
+#[derive(Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub(super) enum FeaturesFile {
+    Linear,
+    Quadratic { mean: Vec<f64>, inverse_scale: Vec<f64> },
+    Rbf { mean: Vec<f64>, inverse_scale: Vec<f64>, centres: Rows, width: f64 },
+}
+
+impl FeaturesFile {
+    /// `None` for linear features, which a file need not name.
+    pub(super) fn of(map: &FeatureMap) -> Option<Self> {
+        let list = |v: &DVector<f64>| v.iter().copied().collect::<Vec<f64>>();
+        match map {
+            FeatureMap::Linear => None,
+            FeatureMap::Quadratic(s) => Some(Self::Quadratic { mean: list(&s.mean), inverse_scale: list(&s.inverse_scale) }),
+            FeatureMap::Rbf { standard: s, centres, width } => Some(Self::Rbf {
+                mean: list(&s.mean),
+                inverse_scale: list(&s.inverse_scale),
+                centres: centres.iter().map(list).collect(),
+                width: *width,
+            }),
+        }
+    }
+
+    pub(super) fn into_map(self) -> FeatureMap {
+        let standard = |mean, scale| Standard { mean: DVector::from_vec(mean), inverse_scale: DVector::from_vec(scale) };
+        match self {
+            Self::Linear => FeatureMap::Linear,
+            Self::Quadratic { mean, inverse_scale } => FeatureMap::Quadratic(standard(mean, inverse_scale)),
+            Self::Rbf { mean, inverse_scale, centres, width } => {
+                let centres = centres.into_iter().map(DVector::from_vec).collect();
+                FeatureMap::Rbf { standard: standard(mean, inverse_scale), centres, width }
+            }
+        }
+    }
 }
 
 impl MapFile {
