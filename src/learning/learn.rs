@@ -33,7 +33,8 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
     let mut warnings = warnings::about_data(dataset, &prepared);
     let (motion, force) = rayon::join(|| motion_fit(dataset, &prepared, settings, seed), || force_fit(dataset, &prepared, settings, seed));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
-    let motion = motion_model(dataset, &prepared, settings, shaping, seed)?;
+    let mut motion = motion_model(dataset, &prepared, settings, shaping, seed)?;
+    motion.evidence = motion_fit.as_ref().map(|fit| fit.evidence.clone()).unwrap_or_default();
     let (force, force_fit) = force.map_or((None, None), |(model, fit)| (Some(model), Some(fit)));
     let orientation = orientation_profile(&prepared, settings);
     let gripper = gripper_profile(&prepared, &mut warnings);
@@ -91,6 +92,7 @@ fn force_fit(
         parameters: ParameterSpace::of(dataset.parameters_f(), &thetas).with_features(features),
         phase_input: settings.phase_input,
         phmm: fit.model.clone(),
+        evidence: fit.evidence.clone(),
     };
     Ok(Some((model, fit)))
 }
@@ -122,6 +124,7 @@ fn motion_model(
         goal: ends(prepared.iter().map(|p| p.goal.clone()).collect())?,
         parameters: ParameterSpace::of(dataset.parameters_m(), &thetas).with_features(features),
         shaping,
+        evidence: Vec::new(),
     })
 }
 

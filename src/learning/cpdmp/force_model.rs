@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use crate::learning::dmp::PhaseInput;
-use crate::learning::phmm::Phmm;
+use crate::learning::phmm::{Phmm, StateEvidence};
 use crate::learning::{Gmr, LearningError, ParameterSpace};
 
 /// The forces of a skill. `theta_f` may be empty or the same in all demonstrations.
@@ -17,6 +17,8 @@ pub struct ForceModel {
     pub phase_input: PhaseInput,
     /// The model over the phase input and the wrench.
     pub phmm: Phmm,
+    /// How well the demonstrations determine each state's mean (N); empty in files that do not say.
+    pub evidence: Vec<StateEvidence>,
 }
 
 impl ForceModel {

@@ -11,6 +11,7 @@ mod compliance;
 mod force_coupling;
 mod force_model;
 mod motion_model;
+mod predictive;
 mod segments;
 mod shaping_function;
 
@@ -20,5 +21,6 @@ pub use force_coupling::{CouplingSettings, ForceConvention, ForceCoupling, Switc
 pub use force_model::ForceModel;
 pub(super) use motion_model::spatial_columns;
 pub use motion_model::{MotionModel, Shaping};
+pub use predictive::Predictive;
 pub use segments::{ComplianceWindow, Segment, compliance_windows, segments};
 pub use shaping_function::ShapingFunction;

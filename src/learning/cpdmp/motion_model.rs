@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::ShapingFunction;
 use crate::learning::dmp::{Lwr, PhaseInput};
-use crate::learning::phmm::Phmm;
+use crate::learning::phmm::{Phmm, StateEvidence};
 use crate::learning::{Gmr, LearningError, LinearMap, ParameterSpace};
 
 /// What stands for the forcing term.
@@ -39,6 +39,8 @@ pub struct MotionModel {
     pub goal: LinearMap,
     /// The forcing term.
     pub shaping: Shaping,
+    /// How well the demonstrations determine each state's mean (N); empty for the baseline and in files that do not say.
+    pub evidence: Vec<StateEvidence>,
 }
 
 impl MotionModel {

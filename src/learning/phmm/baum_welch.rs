@@ -45,6 +45,8 @@ pub(super) struct Problem<'a> {
     pub(super) scaling: Standardisation,
     pub(super) sequences: Vec<Sequence>,
     pub(super) samples: usize,
+    /// Features of every sequence, in user units.
+    pub(super) phis: Vec<DVector<f64>>,
 }
 
 impl<'a> Problem<'a> {
@@ -56,11 +58,22 @@ impl<'a> Problem<'a> {
         }
         let samples = sequences.iter().map(Sequence::samples).sum();
         if samples < settings.states {
-            return Err(LearningError::Data(format!("{samples} samples cannot support {} states", settings.states)));
+            let (k, n) = (sequences.len(), settings.states);
+            let found = format!("{k} demonstrations with {samples} samples cannot support {n} states");
+            return Err(LearningError::Data(format!("{found}; use fewer states, a higher learning rate, or show more demonstrations")));
+        }
+        for (k, sequence) in sequences.iter().enumerate() {
+            let numbers = sequence.values.iter().chain(sequence.theta.iter());
+            if let Some(at) = numbers.copied().position(|x| !x.is_finite()) {
+                let (t, c) = (at / d, at % d);
+                let place = if t < sequence.samples() { format!("sample {t}, variable {c}") } else { "a parameter".to_owned() };
+                return Err(LearningError::Data(format!("sequence {k}, {place}: not a finite number")));
+            }
         }
         let scaling = Standardisation::of(sequences);
+        let phis = sequences.iter().map(|s| s.theta.clone()).collect();
         let sequences = sequences.iter().map(|s| scaling.sequence(s)).collect();
-        Ok(Self { settings, scaling, sequences, samples })
+        Ok(Self { settings, scaling, sequences, samples, phis })
     }
 
     /// The prior is worth `ridge` demonstrations, spread over the states: it does not depend on the rate of sampling.

@@ -1,10 +1,12 @@
 //! A model from several starts: the one with the highest objective is kept.
 
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::baum_welch::{FitStatus, Problem, Run};
+use super::empty_states::EMPTY;
 use super::starts::first_model;
-use super::{Phmm, PhmmSettings, Sequence, Start};
+use super::{Group, Phmm, PhmmSettings, Sequence, Start, StateEvidence, gather};
 use crate::learning::LearningError;
 
 /// How one start fared.
@@ -18,6 +20,8 @@ pub struct StartReport {
     pub iterations: usize,
     /// How it ended.
     pub status: FitStatus,
+    /// The objective before each iteration and after the last; empty when it never was finite.
+    pub history: Vec<f64>,
 }
 
 /// A learned model and how it came about.
@@ -29,12 +33,14 @@ pub struct Fit {
     pub history: Vec<f64>,
     /// How the chosen start ended.
     pub status: FitStatus,
-    /// All starts, in the order they were made; the chosen one has the highest objective.
+    /// All starts, in the order they were made; the chosen one has the highest objective among those that left no state empty.
     pub starts: Vec<StartReport>,
+    /// How well the demonstrations determine each state's mean (N).
+    pub evidence: Vec<StateEvidence>,
 }
 
-/// A state with fewer expected samples than this is empty and is moved once the fit has settled.
-const EMPTY: f64 = 1.0;
+/// How often a fit that has settled with empty states goes on with those moved.
+const MOST_RESEEDINGS: usize = 3;
 /// Most iterations of the plain model that only prepares the parametric one.
 const GLOBAL_ITERATIONS: usize = 50;
 
@@ -42,17 +48,18 @@ const GLOBAL_ITERATIONS: usize = 50;
 /// depend on the number of threads.
 ///
 /// # Errors
-/// When the sequences disagree in shape or hold fewer samples than states.
+/// When the sequences disagree in shape, hold a number that is not finite, or cannot support so many states.
 pub fn fit(sequences: &[Sequence], settings: &PhmmSettings, seed: u64) -> Result<Fit, LearningError> {
     let problem = Problem::new(sequences, settings)?;
     let runs: Vec<(Start, Run)> = settings.starts().into_par_iter().map(|start| (start, problem.run(start, seed))).collect();
-    Ok(problem.best(runs))
+    let usable = problem.refuse_empty_states(&runs)?;
+    problem.best(runs, &usable)
 }
 
 /// Continues from a given model in user units, with no other start; `tolerance = 0` makes exactly `max_iterations` iterations.
 ///
 /// # Errors
-/// When model and sequences do not fit together.
+/// When model and sequences do not fit together, or the likelihood is not finite from the first iteration on.
 pub fn refine(model: &Phmm, sequences: &[Sequence], settings: &PhmmSettings) -> Result<Fit, LearningError> {
     model.check()?;
     let problem = Problem::new(sequences, settings)?;
@@ -63,7 +70,7 @@ pub fn refine(model: &Phmm, sequences: &[Sequence], settings: &PhmmSettings) -> 
     }
     let first = problem.scaling.standardised(model);
     let run = problem.climb(first, true, settings.max_iterations);
-    Ok(problem.best(vec![(Start::Given, run)]))
+    problem.best(vec![(Start::Given, run)], &[true])
 }
 
 impl Problem<'_> {
@@ -74,57 +81,62 @@ impl Problem<'_> {
             model = self.climb(model, false, self.settings.max_iterations.min(GLOBAL_ITERATIONS)).model;
         }
         let mut run = self.climb(model, true, self.settings.max_iterations);
-        if let Some(mended) = self.without_empty_states(&run.model) {
-            let again = self.climb(mended, true, self.settings.max_iterations);
-            if again.objective() > run.objective() {
-                run = again;
-            }
+        for _ in 0..MOST_RESEEDINGS {
+            let Some(mended) = self.without_empty_states(&run.model) else { break };
+            run = self.climb(mended, true, self.settings.max_iterations);
         }
         run
     }
 
-    /// Every empty state moved to half of the fullest one; `None` when no state is empty.
-    fn without_empty_states(&self, model: &Phmm) -> Option<Phmm> {
-        let (_, expectations) = self.expectations(model, &self.penalty(true))?;
-        let n = model.states();
-        let mut counts = vec![0.0; n];
-        for row in expectations.iter().flat_map(|e| e.responsibilities.chunks_exact(n)) {
-            counts.iter_mut().zip(row).for_each(|(count, g)| *count += g);
-        }
-        let empty: Vec<usize> = (0..n).filter(|i| counts[*i] < EMPTY).collect();
-        if empty.is_empty() {
-            return None;
-        }
-        let mut mended = model.clone();
-        for i in empty {
-            let fullest = (0..n).max_by(|a, b| counts[*a].total_cmp(&counts[*b]))?;
-            let spread = mended.covariances[fullest].diagonal().map(|v| 0.5 * v.max(0.0).sqrt());
-            mended.means[i] = &mended.means[fullest] + &spread;
-            mended.means[fullest] -= &spread;
-            mended.weights[i] = mended.weights[fullest].clone();
-            mended.covariances[i] = mended.covariances[fullest].clone();
-            (counts[i], counts[fullest]) = (0.5 * counts[fullest], 0.5 * counts[fullest]);
-        }
-        Some(mended)
+    /// Whether every run that ended well left a state empty: then which, in the best of them.
+    fn refuse_empty_states(&self, runs: &[(Start, Run)]) -> Result<Vec<bool>, LearningError> {
+        let counts: Vec<Option<Vec<f64>>> = runs.iter().map(|(_, run)| self.occupancy(&run.model)).collect();
+        let full = |c: &Option<Vec<f64>>| c.as_ref().is_some_and(|c| c.iter().all(|count| *count >= EMPTY));
+        let usable: Vec<bool> = counts.iter().map(full).collect();
+        let (Some(Some(first)), false) = (counts.first(), usable.contains(&true)) else { return Ok(usable) };
+        let (n, k, samples) = (first.len(), self.sequences.len(), self.samples);
+        let (state, count) = first.iter().enumerate().fold((0, f64::INFINITY), |m, (i, c)| if *c < m.1 { (i, *c) } else { m });
+        Err(LearningError::Data(format!(
+            "state {state} of {n} holds {count:.2} samples after {MOST_RESEEDINGS} re-seedings, from every start: {k} demonstrations with \
+             {samples} samples cannot support {n} states; use fewer states, or show more demonstrations"
+        )))
     }
 
-    fn best(&self, runs: Vec<(Start, Run)>) -> Fit {
+    /// The usable run with the highest objective, in user units.
+    fn best(&self, runs: Vec<(Start, Run)>, usable: &[bool]) -> Result<Fit, LearningError> {
         let offset = self.scaling.log_likelihood_offset(self.samples);
-        let report = |(start, run): &(Start, Run)| StartReport {
-            start: *start,
-            objective: run.objective() + offset,
-            iterations: run.history.len().saturating_sub(1),
-            status: run.status,
+        let report = |(start, run): &(Start, Run)| {
+            let history: Vec<f64> = run.history.iter().map(|objective| objective + offset).collect();
+            let iterations = history.len().saturating_sub(1);
+            StartReport { start: *start, objective: run.objective() + offset, iterations, status: run.status, history }
         };
-        let starts = runs.iter().map(report).collect();
-        let mut best = 0;
-        for (i, (_, run)) in runs.iter().enumerate() {
-            if run.objective() > runs[best].1.objective() {
-                best = i;
+        let starts: Vec<StartReport> = runs.iter().map(report).collect();
+        let mut best: Option<usize> = None;
+        for (i, (_, run)) in runs.iter().enumerate().filter(|(i, (_, run))| usable[*i] && run.objective().is_finite()) {
+            if best.is_none_or(|b| run.objective() > runs[b].1.objective()) {
+                best = Some(i);
             }
         }
-        let run = &runs[best].1;
-        let history = run.history.iter().map(|objective| objective + offset).collect();
-        Fit { model: self.scaling.to_user(&run.model), history, status: run.status, starts }
+        let collapsed = || {
+            let floor = self.settings.covariance_floor;
+            LearningError::Data(format!(
+                "no start gave a finite likelihood: a covariance collapsed; raise covariance_floor (now {floor}) or use fewer states"
+            ))
+        };
+        let best = best.ok_or_else(collapsed)?;
+        let evidence = self.evidence(&runs[best].1.model).ok_or_else(collapsed)?;
+        let model = self.scaling.to_user(&runs[best].1.model);
+        Ok(Fit { model, history: starts[best].history.clone(), status: runs[best].1.status, starts, evidence })
+    }
+
+    fn evidence(&self, model: &Phmm) -> Option<Vec<StateEvidence>> {
+        let (_, expectations) = self.expectations(model, &self.penalty(true))?;
+        let groups: Vec<Vec<Group>> = self.sequences.iter().zip(&expectations).map(|(s, e)| gather(model, s, e)).collect();
+        let phis: Vec<&DVector<f64>> = self.phis.iter().collect();
+        let state = |i: usize| {
+            let groups: Vec<&Group> = groups.iter().map(|g| &g[i]).collect();
+            StateEvidence::of(&groups, &phis, self.settings.ridge)
+        };
+        Some((0..model.states()).map(state).collect())
     }
 }

@@ -13,6 +13,8 @@
 
 mod baum_welch;
 mod emission;
+mod empty_states;
+mod evidence;
 mod fit;
 mod forward_backward;
 mod kmeans;
@@ -26,6 +28,7 @@ mod state_chain;
 mod statistics;
 
 pub use baum_welch::FitStatus;
+pub use evidence::StateEvidence;
 pub use fit::{Fit, StartReport, fit, refine};
 pub use forward_backward::{Expectation, expect};
 pub use kmeans::k_means;

@@ -3,6 +3,7 @@
 use super::Skill;
 use crate::learning::LearningError;
 use crate::learning::cpdmp::Shaping;
+use crate::learning::phmm::StateEvidence;
 
 impl Skill {
     /// Checks that all parts fit together and hold usable numbers.
@@ -35,6 +36,7 @@ impl Skill {
         }
         self.check_shaping(d, q)?;
         self.check_profiles(p)?;
+        check_evidence(&m.evidence, m.states(), q)?;
         if let Some(force) = &self.force {
             force.phmm.check()?;
             force.parameters.features.check(force.parameters.names.len())?;
@@ -42,6 +44,7 @@ impl Skill {
             if (force.phmm.dimension(), force.phmm.parameters()) != shape || force.parameters.ranges.len() != force.parameters.names.len() {
                 return wrong(format!("force.phmm is not over the phase, {} columns and {} features", shape.0 - 1, shape.1));
             }
+            check_evidence(&force.evidence, force.phmm.states(), shape.1)?;
         }
         Ok(())
     }
@@ -94,6 +97,14 @@ impl Skill {
         }
         Ok(())
     }
+}
+
+/// Evidence may be missing, but not in part.
+fn check_evidence(evidence: &[StateEvidence], states: usize, features: usize) -> Result<(), LearningError> {
+    if !evidence.is_empty() && evidence.len() != states {
+        return Err(LearningError::Skill(format!("evidence for {} states, but the model has {states}", evidence.len())));
+    }
+    evidence.iter().enumerate().try_for_each(|(i, e)| e.check(i, features))
 }
 
 fn finite<'a>(mut numbers: impl Iterator<Item = &'a f64>) -> bool {

@@ -7,7 +7,7 @@ mod schema_parts;
 
 use nalgebra::DVector;
 
-use super::cpdmp::{Compliance, ComplianceWindow, ForceModel, MotionModel, compliance_windows, segments};
+use super::cpdmp::{Compliance, ComplianceWindow, ForceModel, MotionModel, Predictive, compliance_windows, segments};
 use super::{GripperProfile, LearningError, OrientationProfile};
 
 /// A learned compliant parametric dynamic movement primitive.
@@ -47,6 +47,24 @@ impl Skill {
     /// When parameters are missing or unknown.
     pub fn extrapolation(&self, theta_m: &[(String, f64)]) -> Result<f64, LearningError> {
         Ok(self.motion.parameters.extrapolation(&self.motion.parameters.resolve(theta_m)?))
+    }
+
+    /// How much less is known about the movement at these parameters than demonstrations repeat it (-); see
+    /// [`MotionModel::extrapolation_ratio`]. `None` when the skill does not hold the evidence.
+    ///
+    /// # Errors
+    /// When parameters are missing or unknown, or the model is degenerate.
+    pub fn extrapolation_ratio(&self, theta_m: &[(String, f64)]) -> Result<Option<f64>, LearningError> {
+        self.motion.extrapolation_ratio(&self.motion.parameters.resolve(theta_m)?)
+    }
+
+    /// What is expected of the forcing term at these parameters and a time fraction, and how far to trust it; see
+    /// [`MotionModel::predictive`]. `None` when the skill does not hold the evidence.
+    ///
+    /// # Errors
+    /// When parameters are missing or unknown, or the model is degenerate.
+    pub fn predictive(&self, theta_m: &[(String, f64)], fraction: f64) -> Result<Option<Predictive>, LearningError> {
+        self.motion.predictive(&self.motion.parameters.resolve(theta_m)?, fraction)
     }
 
     /// The start `x0` and goal `g` (d each) at `theta` (p).

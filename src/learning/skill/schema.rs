@@ -77,7 +77,7 @@ impl File {
         let m = &skill.motion;
         let history = |of: &str| skill.histories.iter().find(|(name, _)| name == of).map(|(_, h)| h.clone()).unwrap_or_default();
         let (phmm, lwr) = match &m.shaping {
-            Shaping::Phmm(phmm) => (Some(PhmmFile::of(phmm, history("motion"))), None),
+            Shaping::Phmm(phmm) => (Some(PhmmFile::of(phmm, &m.evidence, history("motion"))), None),
             Shaping::Lwr(lwr) => (None, Some(LwrFile::of(lwr))),
         };
         let motion = MotionFile {
@@ -101,7 +101,7 @@ impl File {
             parameter_ranges: Some(f.parameters.ranges.clone()),
             features: FeaturesFile::of(&f.parameters.features),
             phase_input: f.phase_input,
-            phmm: PhmmFile::of(&f.phmm, history("force")),
+            phmm: PhmmFile::of(&f.phmm, &f.evidence, history("force")),
         });
         let compliance = Some(ComplianceFile::of(&skill.compliance));
         let orientation = skill.orientation.as_ref().map(OrientationFile::of);
@@ -116,9 +116,11 @@ impl File {
         parameters.features.check(parameters.names.len())?;
         let q = parameters.feature_count();
         let mut histories = Vec::new();
+        let mut evidence = Vec::new();
         let shaping = match (m.phmm, m.lwr) {
             (Some(phmm), None) => {
                 histories.push(("motion".to_owned(), phmm.log_likelihood.clone()));
+                evidence = phmm.evidence("motion.phmm", q)?;
                 Shaping::Phmm(phmm.into_phmm("motion.phmm", q)?)
             }
             (None, Some(lwr)) => Shaping::Lwr(lwr.into_lwr(m.columns.len())?),
@@ -135,14 +137,16 @@ impl File {
             columns: m.columns,
             parameters,
             shaping,
+            evidence,
         };
         let force = match self.force {
             Some(f) => {
                 histories.push(("force".to_owned(), f.phmm.log_likelihood.clone()));
                 let parameters = space(f.parameters, f.parameter_ranges, f.features);
                 parameters.features.check(parameters.names.len())?;
+                let evidence = f.phmm.evidence("force.phmm", parameters.feature_count())?;
                 let phmm = f.phmm.into_phmm("force.phmm", parameters.feature_count())?;
-                Some(ForceModel { columns: f.columns, parameters, phase_input: f.phase_input, phmm })
+                Some(ForceModel { columns: f.columns, parameters, phase_input: f.phase_input, phmm, evidence })
             }
             None => None,
         };

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::learning::cpdmp::{Compliance, Statistic};
 use crate::learning::dmp::Lwr;
-use crate::learning::phmm::Phmm;
+use crate::learning::phmm::{Phmm, StateEvidence};
 use crate::learning::{FeatureMap, LearningError, LinearMap, OrientationProfile, Standard};
 
 type Rows = Vec<Vec<f64>>;
@@ -23,8 +23,19 @@ pub(super) struct PhmmFile {
     weights: Vec<Rows>,
     means: Rows,
     covariances: Vec<Rows>,
+    /// One per state, or none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    evidence: Vec<EvidenceFile>,
     #[serde(default)]
     pub(super) log_likelihood: Vec<f64>,
+}
+
+/// How well the demonstrations determine a state's mean.
+#[derive(Serialize, Deserialize)]
+struct EvidenceFile {
+    demonstrations: f64,
+    centre: Vec<f64>,
+    information: Rows,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -105,8 +116,14 @@ impl MapFile {
 }
 
 impl PhmmFile {
-    pub(super) fn of(phmm: &Phmm, log_likelihood: Vec<f64>) -> Self {
+    pub(super) fn of(phmm: &Phmm, evidence: &[StateEvidence], log_likelihood: Vec<f64>) -> Self {
+        let evidence = evidence.iter().map(|e| EvidenceFile {
+            demonstrations: e.demonstrations,
+            centre: e.centre.iter().copied().collect(),
+            information: rows(&e.information),
+        });
         Self {
+            evidence: evidence.collect(),
             initial: phmm.initial.iter().copied().collect(),
             transition: rows(&phmm.transition),
             weights: phmm.weights.iter().map(rows).collect(),
@@ -114,6 +131,14 @@ impl PhmmFile {
             covariances: phmm.covariances.iter().map(rows).collect(),
             log_likelihood,
         }
+    }
+
+    pub(super) fn evidence(&self, place: &str, features: usize) -> Result<Vec<StateEvidence>, LearningError> {
+        let state = |(i, e): (usize, &EvidenceFile)| {
+            let information = matrix(&format!("{place}.evidence[{i}].information"), &e.information, features)?;
+            Ok(StateEvidence { demonstrations: e.demonstrations, centre: DVector::from_column_slice(&e.centre), information })
+        };
+        self.evidence.iter().enumerate().map(state).collect()
     }
 
     pub(super) fn into_phmm(self, place: &str, parameters: usize) -> Result<Phmm, LearningError> {
