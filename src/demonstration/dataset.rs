@@ -1,6 +1,6 @@
 //! Demonstrations of one skill, with the parameters they were given under.
 
-use super::{DemonstrationError, Fault, Trajectory};
+use super::{DemonstrationError, Fault, ParameterSource, Trajectory};
 
 /// Named task parameters, e.g. `block_height_m = 0.17`, sorted by name.
 pub type Parameters = Vec<(String, f64)>;
@@ -25,6 +25,8 @@ pub struct Dataset {
     pub motion: Vec<String>,
     /// Columns of the force model; may be empty.
     pub wrench: Vec<String>,
+    /// Where `theta_m` comes from; kept on disk, so that the parameters follow the data.
+    pub parameter_source: ParameterSource,
     /// The demonstrations, at least one.
     pub demonstrations: Vec<Demonstration>,
 }
@@ -69,7 +71,11 @@ impl Dataset {
                 }
                 if let Some(unit) = ["_mm", "_cm", "_deg", "_ms"].iter().find(|unit| name.ends_with(**unit)) {
                     let found = format!("{name}, in {}", &unit[1..]);
-                    faults.push(Fault::new(key, found, "SI units: _m, _rad, _n, _nm, _s"));
+                    faults.push(Fault::new(
+                        key,
+                        found,
+                        "SI units: _m, _rad, _n, _nm, _s (dataset.toml: [columns] x_m = { from = \"x_mm\", unit = \"mm\" })",
+                    ));
                 }
             }
         }
