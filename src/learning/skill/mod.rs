@@ -1,6 +1,7 @@
 //! A learned skill: everything needed to move, for any parameter, start, goal and duration.
 
 mod check;
+mod checksum;
 mod file;
 mod schema;
 mod schema_parts;

@@ -19,6 +19,9 @@ pub(super) const VERSION: u64 = 1;
 pub(super) struct File {
     format: String,
     version: u64,
+    /// Of everything else in the file; see [`super::checksum`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) checksum: Option<String>,
     #[serde(default)]
     provenance: BTreeMap<String, String>,
     motion: MotionFile,
@@ -99,7 +102,7 @@ impl File {
         let orientation = skill.orientation.as_ref().map(OrientationFile::of);
         let gripper = skill.gripper.as_ref().map(|g| GripperFile { openings: g.openings.clone() });
         let provenance = skill.provenance.iter().cloned().collect();
-        Self { format: FORMAT.to_owned(), version: VERSION, provenance, motion, force, compliance, orientation, gripper }
+        Self { format: FORMAT.to_owned(), version: VERSION, checksum: None, provenance, motion, force, compliance, orientation, gripper }
     }
 
     pub(super) fn into_skill(self) -> Result<Skill, LearningError> {
