@@ -11,6 +11,7 @@ mod parameter_source;
 mod read;
 mod resample;
 pub mod synthetic;
+mod to_csv;
 mod trajectory;
 mod trajectory_faults;
 mod write;
