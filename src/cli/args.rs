@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::learning_args::{Generate, Inspect, Learn};
+
 /// A physics testbed for Compliant Parametric Dynamic Movement Primitives.
 ///
 /// Teaches a simulated robot by a virtual human, learns the skill, executes it in a new setting with a helping hand, and judges the result.
@@ -24,6 +26,12 @@ pub(super) enum Command {
     Run(Paths),
     /// Check scenarios and what they need, without simulating: all faults at once
     Validate(Paths),
+    /// Learn a skill from a dataset, simulated or your own
+    Learn(Learn),
+    /// Generate a skill's movement for new parameters, start and goal, without physics
+    Generate(Generate),
+    /// Say what a skill, a dataset, a run folder or a robot's file holds
+    Inspect(Inspect),
     /// List the scenarios of a folder, with what each shows
     List(Folders),
     /// Explain exit codes and the codes of faults
@@ -56,7 +64,7 @@ pub(super) struct Code {
 /// What every command understands. A flag wins over the environment, that over the scenario, that over the default.
 #[derive(Debug, Args)]
 pub(super) struct Global {
-    /// Override a key of the scenario (`object.toy.radius_m=0.035`); may be repeated
+    /// Override a key of the scenario (`object.toy.radius_m=0.035`), or of [learning]; may be repeated
     #[arg(long, global = true, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Override the scenario's seed
@@ -68,8 +76,9 @@ pub(super) struct Global {
     /// Let scenarios use the files of this folder too; may be repeated
     #[arg(long, global = true, env = "CPDMP_ASSET_ROOT", value_name = "DIR")]
     pub asset_root: Vec<PathBuf>,
-    /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>
-    #[arg(long, global = true, env = "CPDMP_OUT", value_name = "DIR")]
+    /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the
+    /// samples to this file
+    #[arg(long, global = true, env = "CPDMP_OUT", value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Use this many threads; the result does not depend on it
     #[arg(long, global = true, env = "CPDMP_JOBS", value_name = "N", value_parser = threads)]

@@ -5,8 +5,14 @@
 
 mod args;
 mod explain;
+mod failure;
 mod files;
+mod generate;
+mod generate_request;
+mod inspect;
 mod judged_run;
+mod learn;
+mod learning_args;
 mod list;
 mod load;
 mod progress;
@@ -43,6 +49,9 @@ fn dispatch(cli: &Cli) -> Outcome {
     let outcome = match &cli.command {
         Command::Run(arguments) => run::run(&arguments.paths, &cli.global, &terminal),
         Command::Validate(arguments) => validate::validate(&arguments.paths, &cli.global, &terminal),
+        Command::Learn(arguments) => learn::learn(arguments, &cli.global, &terminal),
+        Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
+        Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
         Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),
     };

@@ -18,6 +18,7 @@ mod sequences;
 mod summary;
 pub mod synthetic;
 mod table;
+mod to_csv;
 mod trajectory;
 mod trajectory_faults;
 mod trajectory_file;

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
 use super::orientation::OrientationSample;
-use super::phmm::{Fit, Sequence, fit};
+use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit, refine};
 use super::prepare::{Prepared, prepare};
 use super::{
     FeatureMap, GripperProfile, LearningError, LearningReport, LearningSettings, LinearMap, OrientationProfile, ParameterSpace,
@@ -27,11 +27,27 @@ pub struct Learned {
 /// # Errors
 /// When settings are outside their ranges, the dataset is not usable, or there are too few samples.
 pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Result<Learned, LearningError> {
+    learn_with(dataset, settings, seed, None)
+}
+
+/// Learns a skill whose models start from those of `first`, and from nothing else; their numbers of states are kept. With `tolerance = 0`
+/// exactly `max_iterations` iterations are made.
+///
+/// # Errors
+/// As [`learn`], or when `first` has other columns, parameters or phase input, or no model to start from.
+pub fn learn_from(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: &Skill) -> Result<Learned, LearningError> {
+    first.check()?;
+    check_first(dataset, settings, first)?;
+    learn_with(dataset, settings, seed, Some(first))
+}
+
+fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: Option<&Skill>) -> Result<Learned, LearningError> {
     settings.check()?;
     dataset.check()?;
     let prepared = prepare(dataset, settings)?;
     let mut warnings = warnings::about_data(dataset, &prepared);
-    let (motion, force) = rayon::join(|| motion_fit(dataset, &prepared, settings, seed), || force_fit(dataset, &prepared, settings, seed));
+    let (motion, force) =
+        rayon::join(|| motion_fit(dataset, &prepared, settings, seed, first), || force_fit(dataset, &prepared, settings, seed, first));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
     let mut motion = motion_model(dataset, &prepared, settings, shaping, seed)?;
     motion.evidence = motion_fit.as_ref().map(|fit| fit.evidence.clone()).unwrap_or_default();
@@ -45,7 +61,8 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
         ("program".to_owned(), format!("cpdmp {}", env!("CARGO_PKG_VERSION"))),
         ("seed".to_owned(), seed.to_string()),
     ];
-    let skill = Skill { motion, force, compliance, orientation, gripper, provenance, histories };
+    let skill =
+        Skill { parameter_source: dataset.parameter_source, motion, force, compliance, orientation, gripper, provenance, histories };
     skill.check()?;
     let noise = forcing_noise(&prepared);
     let fits = [("motion", motion_fit.as_ref()), ("force", force_fit.as_ref())];
@@ -57,7 +74,13 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
 
 type MotionFit = (Shaping, Option<Fit>, Compliance);
 
-fn motion_fit(dataset: &Dataset, prepared: &[Prepared], settings: &LearningSettings, seed: u64) -> Result<MotionFit, LearningError> {
+fn motion_fit(
+    dataset: &Dataset,
+    prepared: &[Prepared],
+    settings: &LearningSettings,
+    seed: u64,
+    first: Option<&Skill>,
+) -> Result<MotionFit, LearningError> {
     let d = dataset.motion.len();
     if settings.shaping == ShapingKind::Lwr {
         let phases: Vec<f64> = prepared.iter().flat_map(|p| p.fractions.iter().map(|u| (-settings.alpha * u).exp())).collect();
@@ -67,7 +90,8 @@ fn motion_fit(dataset: &Dataset, prepared: &[Prepared], settings: &LearningSetti
     }
     let features = motion_features(prepared, settings, seed);
     let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(settings).seen_through(&features)).collect();
-    let fit = fit(&sequences, &settings.motion, seed)?;
+    let first = first.and_then(|skill| skill.motion.shaping.phmm());
+    let fit = fit_from(first, &sequences, &settings.motion, seed)?;
     let noise = forcing_noise(prepared).max();
     let spreads = state_spreads(&fit.model, &sequences)?;
     let compliance = Compliance::decide(spreads, &spatial_columns(&dataset.motion), &settings.compliance, noise);
@@ -79,6 +103,7 @@ fn force_fit(
     prepared: &[Prepared],
     settings: &LearningSettings,
     seed: u64,
+    first: Option<&Skill>,
 ) -> Result<Option<(ForceModel, Fit)>, LearningError> {
     if dataset.wrench.is_empty() || settings.shaping == ShapingKind::Lwr {
         return Ok(None);
@@ -86,7 +111,8 @@ fn force_fit(
     let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_f.clone()).collect();
     let features = FeatureMap::of(settings.force.features, &thetas, seed);
     let sequences: Vec<Sequence> = prepared.iter().map(|p| p.force_sequence(settings).seen_through(&features)).collect();
-    let fit = fit(&sequences, &settings.force, seed)?;
+    let first = first.and_then(|skill| skill.force.as_ref()).map(|force| &force.phmm);
+    let fit = fit_from(first, &sequences, &settings.force, seed)?;
     let model = ForceModel {
         columns: dataset.wrench.clone(),
         parameters: ParameterSpace::of(dataset.parameters_f(), &thetas).with_features(features),
@@ -95,6 +121,40 @@ fn force_fit(
         evidence: fit.evidence.clone(),
     };
     Ok(Some((model, fit)))
+}
+
+/// From the model that was handed in, or from every start of the settings.
+fn fit_from(first: Option<&Phmm>, sequences: &[Sequence], settings: &PhmmSettings, seed: u64) -> Result<Fit, LearningError> {
+    match first {
+        Some(model) => refine(model, sequences, &PhmmSettings { states: model.states(), ..settings.clone() }),
+        None => fit(sequences, settings, seed),
+    }
+}
+
+/// Whether models of `first` can be continued on this dataset: everything that is not, at once.
+fn check_first(dataset: &Dataset, settings: &LearningSettings, first: &Skill) -> Result<(), LearningError> {
+    let mut faults = Vec::new();
+    let mut same = |what: &str, skill: &[String], data: &[String]| {
+        if skill != data {
+            faults.push(format!("{what} of the first skill are [{}], of the dataset [{}]", skill.join(", "), data.join(", ")));
+        }
+    };
+    same("motion columns", &first.motion.columns, &dataset.motion);
+    same("motion parameters", &first.motion.parameters.names, &dataset.parameters_m());
+    match &first.force {
+        Some(force) => {
+            same("wrench columns", &force.columns, &dataset.wrench);
+            same("force parameters", &force.parameters.names, &dataset.parameters_f());
+        }
+        None => same("wrench columns", &[], &dataset.wrench),
+    }
+    if first.motion.phase_input != settings.phase_input {
+        faults.push("the first skill has another phase_input than the settings".to_owned());
+    }
+    if first.motion.shaping.phmm().is_none() || settings.shaping == ShapingKind::Lwr {
+        faults.push("the baseline has no model to start from".to_owned());
+    }
+    if faults.is_empty() { Ok(()) } else { Err(LearningError::Skill(faults.join("\n"))) }
 }
 
 fn motion_model(

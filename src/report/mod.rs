@@ -3,19 +3,35 @@
 //! [`RunReport`] is the only source: `report.json` is its serialised form, and the table on the terminal is drawn from it. [`RunFolder`] is
 //! where a run leaves its files: written beside, then renamed, so that there is never half of one.
 
+mod data_section;
+mod error_section;
+mod learn_report;
+mod learn_text;
 mod lock;
 mod manifest;
 mod outcome;
+mod output_file;
+mod robot_section;
 mod run_folder;
 mod run_report;
+mod run_section;
 mod sections;
+mod skill_section;
+mod table;
 mod text;
 
+pub use data_section::{ColumnRow, DataSection, DemonstrationRow};
+pub use error_section::{ErrorRow, ValidationRow, ValidationSection};
+pub use learn_report::LearnReport;
 pub use manifest::{FileHash, Host, Manifest, hash_file};
 pub use outcome::Outcome;
+pub use output_file::{Replaceable, prepare_file, replace_file};
+pub use robot_section::{JointLine, RobotSection};
 pub use run_folder::{OutputError, RunFolder, write_file};
 pub use run_report::{
     ClearanceReport, CollisionReport, ComplianceReport, ComplianceState, CriterionReport, HumanReport, LearningSection, PhaseReport,
     RunReport, Window,
 };
+pub use run_section::{CriterionLine, FileLine, RunSection};
+pub use skill_section::{FitSection, ParameterRange, SkillSection, StateRow};
 pub use text::text;

@@ -79,16 +79,19 @@ impl Outcome {
         match self {
             Self::Passed => "every required criterion is as the scenario expects",
             Self::CriteriaNotMet => {
-                "a required criterion is not as the scenario expects: the table and report.json say which, by how much and when"
+                "a required criterion is not as the scenario expects: the table and report.json say which, by how much and when; or a movement \
+                 would go further beyond what was demonstrated than --deny-extrapolation allows"
             }
             Self::Diverged => {
                 "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help"
             }
-            Self::LearningFailed => "no skill could be learned from the demonstrations",
+            Self::LearningFailed => "no skill could be learned from the demonstrations: the message says what they lack",
             Self::NothingSelected => "the arguments name no scenario: check the folder or pattern",
             Self::OutputBusy => "another run is writing to the same folder: wait, or choose another --out",
-            Self::OutputFailed => "the output cannot be written: disk full, no permission, or the folder holds something that is not a run",
-            Self::InvalidInput => "a scenario, robot file or dataset cannot be used: nothing was simulated or written",
+            Self::OutputFailed => {
+                "the output cannot be written: disk full, no permission, or the place holds something that is not a run, a skill or samples"
+            }
+            Self::InvalidInput => "a scenario, robot file, dataset or skill cannot be used: nothing was simulated, learned or written",
             Self::Usage => "the command line cannot be understood: see --help",
             Self::InternalError => "a bug in the program: please report it with the command and the scenario",
         }

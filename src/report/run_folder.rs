@@ -14,6 +14,14 @@ pub enum OutputError {
     /// The place is taken by something that is not ours.
     #[error("{} is not the folder of a run and is not overwritten: choose another --out, or move it away", .0.display())]
     NotARun(PathBuf),
+    /// The place of a file is taken by something that is not ours.
+    #[error("{} is not {what} and is not overwritten: choose another --out, or move it away", path.display())]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+        /// What it would have to be.
+        what: &'static str,
+    },
     /// Another run writes there.
     #[error("{} is in use by {holder}: wait for it, or choose another --out", path.display())]
     Busy {
@@ -37,11 +45,11 @@ impl OutputError {
     pub fn outcome(&self) -> Outcome {
         match self {
             Self::Busy { .. } => Outcome::OutputBusy,
-            Self::NotARun(_) | Self::Io { .. } => Outcome::OutputFailed,
+            Self::NotARun(_) | Self::NotOurs { .. } | Self::Io { .. } => Outcome::OutputFailed,
         }
     }
 
-    fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
+    pub(super) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_path_buf();
         move |source| Self::Io { path, source }
     }

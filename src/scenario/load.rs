@@ -94,7 +94,7 @@ fn read(path: &Path, options: &LoadOptions, sources: &mut Sources, faults: &mut 
         return None;
     }
     for typed in &options.set {
-        overrides::set(&mut tree, typed, sources, faults);
+        overrides::set(&mut tree, "--set", typed, sources, faults);
     }
     if let Some(seed) = options.seed {
         let value = i64::try_from(seed).map_or(Value::Number(seed as f64), Value::Integer);

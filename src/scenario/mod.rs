@@ -18,6 +18,7 @@ mod diagnostic;
 mod fault;
 mod key;
 mod layer;
+mod learning_file;
 mod load;
 mod measure;
 mod overrides;
@@ -36,5 +37,7 @@ mod words;
 
 pub use diagnostic::{Diagnostic, InvalidScenario};
 pub use fault::{Code, Severity};
+pub use learning_file::{LearningOptions, learning_settings};
 pub use load::{LoadOptions, RecordingPlan, Scenario};
 pub use render::render;
+pub use suggest::did_you_mean;

@@ -9,9 +9,9 @@ use super::source::{Origin, Source, SourceId, Sources};
 use super::suggest::{did_you_mean, name_list};
 use super::tree::{Entry, Node, Value};
 
-/// Applies one override as typed on the command line (`object.toy.radius_m=0.035`).
-pub(super) fn set(tree: &mut Node, typed: &str, sources: &mut Sources, faults: &mut Vec<Fault>) {
-    let id = sources.add(of_command_line("--set", typed));
+/// Applies one override as typed after the flag `name` of the command line (`object.toy.radius_m=0.035`).
+pub(super) fn set(tree: &mut Node, name: &str, typed: &str, sources: &mut Sources, faults: &mut Vec<Fault>) {
+    let id = sources.add(of_command_line(name, typed));
     let outcome = read(typed, id, faults).and_then(|(path, value)| place(tree, &path, value));
     faults.extend(outcome.err());
 }

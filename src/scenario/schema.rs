@@ -32,6 +32,12 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
     Key::new("criterion", List(CRITERION), "what the run must show").or_empty(),
 ]);
 
+/// A file with nothing but the `[learning]` table.
+pub(super) const LEARNING_FILE: Shape = Shape::plain(&[
+    Key::new("schema_version", Count(1, SCHEMA_VERSION), "version of the scenario language").optional(),
+    Key::new("learning", Section(LEARNING), "how the skill is learned").or_empty(),
+]);
+
 const ROBOT: Shape = Shape::plain(&[
     Key::new("urdf", Path(PathTo::Robot), "the robot's description").or(Preset::Text("builtin:baxter")),
     Key::new("package_directories", Folders, "where package://NAME/ is looked up, besides the folders above the URDF file").or_empty(),

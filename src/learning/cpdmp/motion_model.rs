@@ -16,6 +16,17 @@ pub enum Shaping {
     Lwr(Lwr),
 }
 
+impl Shaping {
+    /// The parametric model, unless it is the baseline.
+    #[must_use]
+    pub fn phmm(&self) -> Option<&Phmm> {
+        match self {
+            Self::Phmm(phmm) => Some(phmm),
+            Self::Lwr(_) => None,
+        }
+    }
+}
+
 /// The motion of a skill.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionModel {

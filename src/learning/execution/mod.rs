@@ -1,6 +1,7 @@
 //! A skill in motion: step by step in a control loop, or all at once as a path.
 
 mod coupling;
+mod expectation;
 mod generate;
 mod settings;
 mod skill_execution;

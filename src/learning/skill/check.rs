@@ -1,9 +1,16 @@
 //! Whether the parts of a skill fit together and hold usable numbers.
 
 use super::Skill;
+use super::request::selection;
+use crate::demonstration::ParameterSource;
 use crate::learning::LearningError;
 use crate::learning::cpdmp::Shaping;
 use crate::learning::phmm::StateEvidence;
+
+/// The most columns of a model, as in datasets.
+const MOST_COLUMNS: usize = 32;
+/// The most parameters of a model.
+const MOST_PARAMETERS: usize = 64;
 
 impl Skill {
     /// Checks that all parts fit together and hold usable numbers.
@@ -26,6 +33,7 @@ impl Skill {
         if d == 0 || m.parameters.ranges.len() != p {
             return wrong(format!("motion has {d} columns, {p} parameters and {} parameter ranges", m.parameters.ranges.len()));
         }
+        self.check_names()?;
         for (name, map) in [("start", &m.start), ("goal", &m.goal)] {
             if map.mean.len() != d || map.weights.shape() != (d, q) {
                 return wrong(format!("motion.{name} is not over {d} columns and {q} features"));
@@ -33,6 +41,9 @@ impl Skill {
             if !finite(map.mean.iter().chain(map.weights.iter())) {
                 return wrong(format!("motion.{name} holds a number that is not finite"));
             }
+        }
+        if self.parameter_source != ParameterSource::Given {
+            selection(self.parameter_source, &m.parameters.names, &m.columns)?;
         }
         self.check_shaping(d, q)?;
         self.check_profiles(p)?;
@@ -47,6 +58,32 @@ impl Skill {
             check_evidence(&force.evidence, force.phmm.states(), shape.1)?;
         }
         Ok(())
+    }
+
+    /// Names, ranges and histories: what a file keeps beside the models.
+    fn check_names(&self) -> Result<(), LearningError> {
+        let wrong = |what: String| Err(LearningError::Skill(what));
+        let mut spaces = vec![("motion", &self.motion.columns, &self.motion.parameters)];
+        spaces.extend(self.force.as_ref().map(|force| ("force", &force.columns, &force.parameters)));
+        for (place, columns, parameters) in spaces {
+            if columns.len() > MOST_COLUMNS || parameters.names.len() > MOST_PARAMETERS {
+                return wrong(format!("{place} has more than {MOST_COLUMNS} columns or {MOST_PARAMETERS} parameters"));
+            }
+            for (kind, names) in [("columns", columns), ("parameters", &parameters.names)] {
+                if let Some(name) = (1..names.len()).find(|i| names[..*i].contains(&names[*i])).map(|i| &names[i]) {
+                    return wrong(format!("{place}.{kind} holds {name} twice"));
+                }
+            }
+            let ordered = |[from, to]: &[f64; 2]| from.is_finite() && to.is_finite() && from <= to;
+            if let Some(j) = parameters.ranges.iter().position(|range| !ordered(range)) {
+                let [from, to] = parameters.ranges[j];
+                return wrong(format!("{place}.parameter_ranges[{j}] is [{from}, {to}], but must be two finite numbers that rise"));
+            }
+        }
+        match self.histories.iter().find(|(_, history)| !finite(history.iter())) {
+            Some((of, _)) => wrong(format!("{of}.phmm.log_likelihood holds a number that is not finite")),
+            None => Ok(()),
+        }
     }
 
     fn check_shaping(&self, d: usize, q: usize) -> Result<(), LearningError> {

@@ -1,7 +1,9 @@
 //! A learned skill: everything needed to move, for any parameter, start, goal and duration.
 
 mod check;
+mod checksum;
 mod file;
+mod request;
 mod schema;
 mod schema_parts;
 
@@ -9,10 +11,15 @@ use nalgebra::DVector;
 
 use super::cpdmp::{Compliance, ComplianceWindow, ForceModel, MotionModel, Predictive, compliance_windows, segments};
 use super::{GripperProfile, LearningError, OrientationProfile};
+use crate::demonstration::ParameterSource;
+
+pub use request::Request;
 
 /// A learned compliant parametric dynamic movement primitive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skill {
+    /// Where `theta_m` comes from: given, or read off the start and goal that are asked for.
+    pub parameter_source: ParameterSource,
     /// The movement.
     pub motion: MotionModel,
     /// The wrench expected along it, when demonstrations had one.

@@ -1,0 +1,128 @@
+//! `cpdmp generate`: a skill's movement, without physics.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use nalgebra::DMatrix;
+use serde::Serialize;
+
+use super::args::{Format, Global};
+use super::failure::Failure;
+use super::generate_request::request;
+use super::learn::read_skill;
+use super::learning_args::Generate;
+use super::terminal::Terminal;
+use crate::demonstration::Trajectory;
+use crate::learning::{ExecutionSettings, LearningError, Skill, generate as generated};
+use crate::report::{Outcome, Replaceable, prepare_file, replace_file};
+
+/// A movement and what was asked for.
+#[derive(Serialize)]
+struct Movement {
+    schema_version: u32,
+    outcome: Outcome,
+    exit_code: u8,
+    skill: PathBuf,
+    /// Where the samples are, when they are in a file.
+    written: Option<PathBuf>,
+    duration_s: f64,
+    theta_m: BTreeMap<String, f64>,
+    start: Vec<f64>,
+    goal: Vec<f64>,
+    /// How far outside the demonstrated range, as a fraction of it; none when the range has no width.
+    extrapolation: Option<f64>,
+    warnings: Vec<String>,
+    /// Names of the columns, the time first.
+    columns: Vec<String>,
+    /// One list per sample; empty when the samples are in a file.
+    rows: Vec<Vec<f64>>,
+}
+
+/// Generates a movement to stdout or a file.
+pub(super) fn generate(arguments: &Generate, global: &Global, terminal: &Terminal) -> Outcome {
+    match moved(arguments, global.out.as_deref(), terminal.format) {
+        Ok((movement, csv)) => {
+            movement.warnings.iter().for_each(|warning| terminal.note(&format!("warning: {warning}\n")));
+            match (terminal.format, &movement.written) {
+                (Format::Json, _) => terminal.json(&movement),
+                (Format::Human, None) => terminal.result(&csv),
+                (Format::Human, Some(path)) => terminal.note(&format!("written to {}\n", path.display())),
+            }
+            movement.outcome
+        }
+        Err(failure) => failure.tell(terminal),
+    }
+}
+
+fn moved(arguments: &Generate, out: Option<&Path>, format: Format) -> Result<(Movement, String), Failure> {
+    if let Some(out) = out {
+        if out.extension().is_none_or(|extension| extension != "csv") {
+            return Err(Failure::new(Outcome::Usage, [format!("--out {}: expected a file that ends in .csv", out.display())]));
+        }
+        prepare_file(out, Replaceable::Samples)?;
+    }
+    let mut skill = read_skill(&arguments.skill)?;
+    let settings = request(arguments, &skill).map_err(|slips| Failure::new(Outcome::Usage, slips))?;
+    if !arguments.expected_wrench {
+        // Its parameters need not be given.
+        skill.force = None;
+    }
+    let failed = |error: LearningError| Failure::of_learning(&arguments.skill, &error);
+    let asked = skill.request(&settings).map_err(failed)?;
+    let ratio = skill.motion.parameters.extrapolation(&asked.theta);
+    if let Some(most) = arguments.deny_extrapolation.filter(|most| ratio > *most) {
+        let message = format!("{}: more than the {most} that --deny-extrapolation allows", beyond(ratio));
+        return Err(Failure::new(Outcome::CriteriaNotMet, [message]));
+    }
+    let trajectory = samples(&skill, &settings, arguments).map_err(failed)?;
+    let csv = trajectory.to_csv();
+    if let Some(out) = out {
+        replace_file(out, csv.as_bytes(), Replaceable::Samples)?;
+    }
+    let names = skill.motion.parameters.names.iter().cloned();
+    let in_json = format == Format::Json && out.is_none();
+    let row = |t: usize| std::iter::once(trajectory.times_s()[t]).chain(trajectory.values().row(t).iter().copied()).collect();
+    let movement = Movement {
+        schema_version: 1,
+        outcome: Outcome::Passed,
+        exit_code: Outcome::Passed.exit_code(),
+        skill: arguments.skill.clone(),
+        written: out.map(Path::to_path_buf),
+        duration_s: settings.duration_s.unwrap_or(skill.motion.duration_s),
+        theta_m: names.zip(asked.theta.iter().copied()).collect(),
+        start: asked.start.iter().copied().collect(),
+        goal: asked.goal.iter().copied().collect(),
+        extrapolation: Some(ratio).filter(|ratio| ratio.is_finite()),
+        warnings: (ratio > 0.0).then(|| beyond(ratio)).into_iter().collect(),
+        columns: std::iter::once("time_s".to_owned()).chain(trajectory.columns().iter().cloned()).collect(),
+        rows: if in_json { (0..trajectory.samples()).map(row).collect() } else { Vec::new() },
+    };
+    Ok((movement, csv))
+}
+
+fn beyond(ratio: f64) -> String {
+    if ratio.is_finite() {
+        format!("a parameter lies outside what was demonstrated, by {ratio:.2} of its range")
+    } else {
+        "a parameter lies outside what was demonstrated, where it never varied".to_owned()
+    }
+}
+
+/// The movement, with the columns that were asked for beside it.
+fn samples(skill: &Skill, settings: &ExecutionSettings, arguments: &Generate) -> Result<Trajectory, LearningError> {
+    let path = generated(skill, settings, arguments.dt, arguments.until)?;
+    let duration = settings.duration_s.unwrap_or(skill.motion.duration_s);
+    let u: Vec<f64> = path.times_s().iter().map(|time| time / duration).collect();
+    let mut columns = path.columns().to_vec();
+    let mut parts = vec![path.values().clone()];
+    if arguments.covariance {
+        columns.extend(skill.motion.columns.iter().map(|name| format!("std_{name}")));
+        parts.push(skill.deviation(&skill.request(settings)?.theta, &u)?);
+    }
+    if let Some(force) = skill.force.as_ref().filter(|_| arguments.expected_wrench) {
+        columns.extend(force.columns.iter().cloned());
+        parts.push(skill.expected_wrench(&settings.theta_f, &u)?);
+    }
+    let all: Vec<_> = parts.iter().flat_map(|part| part.column_iter()).collect();
+    Ok(Trajectory::new(path.times_s().to_vec(), columns, DMatrix::from_columns(&all))?)
+}

@@ -1,0 +1,103 @@
+//! `cpdmp learn`: a skill from demonstrations of any origin.
+
+use std::path::Path;
+
+use super::args::{Format, Global};
+use super::failure::Failure;
+use super::learning_args::{Learn, Theta};
+use super::terminal::Terminal;
+use crate::demonstration::{Dataset, ParameterSource};
+use crate::learning::selection::{cross_validate, reproduction};
+use crate::learning::{self, LearningError, LearningSettings, Skill};
+use crate::report::{LearnReport, Outcome, Replaceable, prepare_file, replace_file};
+use crate::scenario::{Diagnostic, LearningOptions, learning_settings};
+
+/// Learns, tells what came of it, and writes the skill when it was given a place.
+pub(super) fn learn(arguments: &Learn, global: &Global, terminal: &Terminal) -> Outcome {
+    match learned(arguments, global, terminal) {
+        Ok(report) => {
+            match terminal.format {
+                Format::Human => terminal.result(&report.text()),
+                Format::Json => terminal.json(&report),
+            }
+            match &report.written {
+                Some(path) => terminal.note(&format!("written to {}\n", path.display())),
+                None => terminal.note("nothing was written: --out SKILL.json keeps the skill\n"),
+            }
+            report.outcome
+        }
+        Err(failure) => failure.tell(terminal),
+    }
+}
+
+fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<LearnReport, Failure> {
+    let (settings, odd) = settings(arguments, global)?;
+    terminal.faults(&odd);
+    // Whether the skill can be written is known before time is spent on it.
+    if let Some(out) = &global.out {
+        prepare_file(out, Replaceable::Skill)?;
+    }
+    let path = &arguments.dataset;
+    let dataset = dataset(arguments).map_err(|error| Failure::of_learning(path, &error))?;
+    let first = arguments.init.as_deref().map(read_skill).transpose()?;
+    let seed = global.seed.unwrap_or(0);
+    let of_data = |error: LearningError| Failure::of_learning(arguments.init.as_ref().unwrap_or(path), &error);
+    let learned = match &first {
+        Some(first) => learning::learn_from(&dataset, &settings, seed, first),
+        None => learning::learn(&dataset, &settings, seed),
+    };
+    let learned = learned.map_err(of_data)?;
+    let repeated = reproduction(&dataset, &learned.skill).map_err(of_data)?;
+    let validated = arguments.cross_validate.then(|| cross_validate(&dataset, &settings, seed)).transpose().map_err(of_data)?;
+    let mut report = LearnReport::of((path.clone(), &dataset), &learned, &repeated, validated.as_ref(), seed).map_err(of_data)?;
+    if let Some(out) = &global.out {
+        let text = learned.skill.to_json().map_err(of_data)?;
+        replace_file(out, text.as_bytes(), Replaceable::Skill)?;
+        report.written = Some(out.clone());
+    }
+    Ok(report)
+}
+
+/// Reads a skill; what is wrong with it names its file.
+pub(super) fn read_skill(path: &Path) -> Result<Skill, Failure> {
+    Skill::read(path).map_err(|error| Failure::of_learning(path, &error))
+}
+
+fn settings(arguments: &Learn, global: &Global) -> Result<(LearningSettings, Vec<Diagnostic>), Failure> {
+    let typed = [
+        ("--states", "motion.states", &arguments.states),
+        ("--force-states", "force.states", &arguments.force_states),
+        ("--stiffness", "stiffness", &arguments.stiffness),
+        ("--ridge", "motion.ridge", &arguments.ridge),
+        ("--ridge", "force.ridge", &arguments.ridge),
+        ("--max-iterations", "motion.max_iterations", &arguments.max_iterations),
+        ("--max-iterations", "force.max_iterations", &arguments.max_iterations),
+        ("--tolerance", "motion.tolerance", &arguments.tolerance),
+        ("--tolerance", "force.tolerance", &arguments.tolerance),
+    ];
+    let mut flags: Vec<_> = typed.into_iter().filter_map(|(flag, key, value)| Some((flag, key, value.clone()?))).collect();
+    if arguments.baseline {
+        flags.push(("--baseline", "shaping", "lwr".to_owned()));
+    }
+    Ok(learning_settings(&LearningOptions { file: arguments.settings.clone(), set: global.set.clone(), flags })?)
+}
+
+/// The dataset, with the columns and parameters that the flags ask for.
+fn dataset(arguments: &Learn) -> Result<Dataset, LearningError> {
+    let mut dataset = Dataset::read(&arguments.dataset)?;
+    if !arguments.motion.is_empty() {
+        dataset.motion.clone_from(&arguments.motion);
+    }
+    if !arguments.wrench.is_empty() || arguments.no_wrench {
+        dataset.wrench.clone_from(&arguments.wrench);
+    }
+    let source = match arguments.theta {
+        Some(Theta::Given) | None => dataset.parameter_source,
+        Some(Theta::Start) => ParameterSource::Start,
+        Some(Theta::Goal) => ParameterSource::Goal,
+        Some(Theta::StartRelativeToGoal) => ParameterSource::StartRelativeToGoal,
+    };
+    let dataset = dataset.with_parameter_source(source);
+    dataset.check()?;
+    Ok(dataset)
+}

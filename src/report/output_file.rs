@@ -1,0 +1,73 @@
+//! A single file that a command writes: beside its final place first, then renamed, and only over what is ours.
+
+use std::fs::{self, File};
+use std::io::{Read, Write};
+use std::path::Path;
+
+use super::OutputError;
+
+/// What a file must be to be replaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Replaceable {
+    /// A skill.
+    Skill,
+    /// Samples: its first line names a column `time_s`, or it is a Parquet file.
+    Samples,
+}
+
+/// Bytes at the beginning of a file that say what it is.
+const BEGINNING: u64 = 4096;
+
+/// Checks that `path` is free or holds what may be replaced, and makes its folder.
+///
+/// # Errors
+/// When something else is there, or the folder cannot be made.
+pub fn prepare_file(path: &Path, replaceable: Replaceable) -> Result<(), OutputError> {
+    if path.symlink_metadata().is_ok() && !is_replaceable(path, replaceable) {
+        let what = if replaceable == Replaceable::Skill { "a skill" } else { "a file of samples" };
+        return Err(OutputError::NotOurs { path: path.to_path_buf(), what });
+    }
+    let folder = folder(path);
+    fs::create_dir_all(folder).map_err(OutputError::io(folder))
+}
+
+/// Writes a file beside its place and renames it, so that there is never half of it.
+///
+/// # Errors
+/// When something else is there, or the file system refuses.
+pub fn replace_file(path: &Path, content: &[u8], replaceable: Replaceable) -> Result<(), OutputError> {
+    prepare_file(path, replaceable)?;
+    let mut builder = tempfile::Builder::new();
+    // A temporary file is private; what a command writes is a file like any other.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    let write = || {
+        let mut beside = builder.tempfile_in(folder(path))?;
+        beside.write_all(content)?;
+        beside.as_file().sync_all()?;
+        beside.persist(path).map_err(|error| error.error)
+    };
+    write().map(|_| ()).map_err(OutputError::io(path))
+}
+
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn is_replaceable(path: &Path, replaceable: Replaceable) -> bool {
+    // Opening a pipe or device could wait for ever.
+    if !path.metadata().is_ok_and(|about| about.is_file()) {
+        return false;
+    }
+    let mut bytes = Vec::new();
+    if File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut bytes)).is_err() {
+        return false;
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    match replaceable {
+        Replaceable::Skill => text.trim_start().starts_with('{') && text.contains("\"cpdmp-skill\""),
+        Replaceable::Samples => {
+            bytes.starts_with(b"PAR1") || text.lines().next().is_some_and(|line| line.split(',').any(|c| c == "time_s"))
+        }
+    }
+}
