@@ -1,0 +1,3 @@
+//! Figures as SVG.
+
+mod drawing;
