@@ -6,7 +6,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, RGBColor};
 
 use super::canvas::{Drawn, Page, TITLE_PT, plain, steps, stroke, text};
-use super::chart::{Axis, Chart};
+use super::chart::Chart;
 use super::draw_mark::draw_mark;
 use super::extent::extent;
 use super::ticks::tick;
@@ -16,22 +16,26 @@ use crate::palette::{BLACK, GREY};
 const TITLE_HEIGHT_PT: f64 = 20.0;
 /// Width of the vertical axis' numbers and label, and height of the horizontal one's (pt).
 const LABELS_PT: [f64; 2] = [46.0, 34.0];
-/// Space at the right (pt), for half of the last number.
-const RIGHT_PT: f64 = 14.0;
+/// Space at the left and at the right (pt), the latter for half of the last number.
+const SIDES_PT: [f64; 2] = [6.0, 14.0];
+/// Space above the title (pt), to the panel above.
+const TOP_PT: f64 = 8.0;
 /// Ticks per axis, at most: one per so many points.
 const TICK_PT: [f64; 2] = [45.0, 28.0];
 
 /// Draws a panel of this size (pt).
 pub(super) fn draw_chart(chart: &Chart, size_pt: [f64; 2], area: &Page<'_, Shift>) -> Drawn<()> {
-    let labels_pt = if chart.axes.is_some() { LABELS_PT } else { [RIGHT_PT, 6.0] };
-    let plot_pt = [size_pt[0] - labels_pt[0] - RIGHT_PT, size_pt[1] - labels_pt[1] - TITLE_HEIGHT_PT];
+    let labels_pt = if chart.axes.is_some() { LABELS_PT } else { [SIDES_PT[1] - SIDES_PT[0], 6.0] };
+    let left_pt = SIDES_PT[0] + labels_pt[0];
+    let plot_pt = [size_pt[0] - left_pt - SIDES_PT[1], size_pt[1] - labels_pt[1] - TITLE_HEIGHT_PT - TOP_PT];
     let Some([x, y]) = extent(chart, plot_pt) else { return Err("a panel is empty".to_owned()) };
     let title = text(TITLE_PT, BLACK, FontStyle::Bold, Pos::new(HPos::Center, VPos::Center));
-    let middle = steps(labels_pt[0] + plot_pt[0] / 2.0);
-    area.draw_text(&chart.title, &title, (middle, steps(TITLE_HEIGHT_PT / 2.0))).map_err(|error| error.to_string())?;
+    let middle = steps(left_pt + plot_pt[0] / 2.0);
+    area.draw_text(&chart.title, &title, (middle, steps(TOP_PT + TITLE_HEIGHT_PT / 2.0))).map_err(|error| error.to_string())?;
     let mut context = ChartBuilder::on(area)
-        .margin_top(steps(TITLE_HEIGHT_PT))
-        .margin_right(steps(RIGHT_PT))
+        .margin_top(steps(TOP_PT + TITLE_HEIGHT_PT))
+        .margin_left(steps(SIDES_PT[0]))
+        .margin_right(steps(SIDES_PT[1]))
         .x_label_area_size(steps(labels_pt[1]))
         .y_label_area_size(steps(labels_pt[0]))
         .build_cartesian_2d(x[0]..x[1], y[0]..y[1])
@@ -48,8 +52,8 @@ pub(super) fn draw_chart(chart: &Chart, size_pt: [f64; 2], area: &Page<'_, Shift
             .y_labels(most[1])
             .x_label_formatter(&|value| tick(*value, x))
             .y_label_formatter(&|value| tick(*value, y))
-            .x_desc(words(horizontal))
-            .y_desc(words(vertical))
+            .x_desc(&horizontal.label)
+            .y_desc(&vertical.label)
             .label_style(number.clone())
             .axis_desc_style(number)
             .set_all_tick_mark_size(steps(3.0))
@@ -57,8 +61,4 @@ pub(super) fn draw_chart(chart: &Chart, size_pt: [f64; 2], area: &Page<'_, Shift
             .map_err(|error| error.to_string())?;
     }
     chart.marks.iter().filter(|mark| mark.is_finite()).try_for_each(|mark| draw_mark(mark, &mut context))
-}
-
-fn words(axis: &Axis) -> String {
-    axis.label.clone()
 }

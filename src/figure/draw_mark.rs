@@ -19,6 +19,9 @@ const HEAD_PT: [f64; 2] = [7.0, 3.0];
 /// Width of the border of areas and symbols (pt).
 const BORDER_PT: f64 = 0.8;
 
+/// Largest radius of a symbol in the legend (pt).
+const LARGEST_SAMPLE_PT: f64 = 5.0;
+
 /// A panel with its axes.
 pub(super) type Panel<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
@@ -40,7 +43,13 @@ pub(super) fn draw_sample(mark: &Mark, at: [f64; 2], width_pt: f64, page: &Page<
         Shape::Area { .. } => vec![place(2.0, -4.0), place(width_pt - 2.0, -4.0), place(width_pt - 2.0, 4.0), place(2.0, 4.0)],
         Shape::Symbols { .. } | Shape::Words { .. } => vec![place(width_pt / 2.0, 0.0)],
     };
-    draw_shape(&mark.shape, mark.color, places, page)
+    match &mark.shape {
+        // A row of the legend is no higher than this.
+        Shape::Symbols { symbol, radius_pt, .. } => {
+            draw_symbol(*symbol, places[0], steps(radius_pt.min(LARGEST_SAMPLE_PT)), mark.color, page)
+        }
+        shape => draw_shape(shape, mark.color, places, page),
+    }
 }
 
 fn draw_shape(shape: &Shape, color: Rgb, places: Vec<(i32, i32)>, page: &Page<'_, Shift>) -> Drawn<()> {
