@@ -51,7 +51,7 @@ fn draw(figure: &Figure, [columns, rows]: [usize; 2], legend: &Legend, size_pt: 
 
 /// The library counts steps: the page is as many points wide as the figure says, whatever the steps are.
 fn in_points(document: &str, size_pt: [f64; 2]) -> String {
-    let [width, height] = size_pt.map(|pt| steps(pt));
+    let [width, height] = size_pt.map(steps);
     let counted = format!("width=\"{width}\" height=\"{height}\" viewBox");
     let measured = format!("width=\"{}pt\" height=\"{}pt\" viewBox", f64::from(width) / STEPS_PER_PT, f64::from(height) / STEPS_PER_PT);
     document.replacen(&counted, &measured, 1)

@@ -3,6 +3,8 @@
 //! [`RunReport`] is the only source: `report.json` is its serialised form, and the table on the terminal is drawn from it. [`RunFolder`] is
 //! where a run leaves its files: written beside, then renamed, so that there is never half of one.
 
+mod comparison;
+mod figures;
 mod lock;
 mod manifest;
 mod outcome;
@@ -11,6 +13,7 @@ mod run_report;
 mod sections;
 mod text;
 
+pub use comparison::{ComparisonReport, MethodResult, MethodSummary, SettingReport};
 pub use manifest::{FileHash, Host, Manifest, hash_file};
 pub use outcome::Outcome;
 pub use run_folder::{OutputError, RunFolder, write_file};

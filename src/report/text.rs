@@ -1,6 +1,8 @@
 //! The report for people: what was asked, what came of it, what touched, what it took.
 
 use super::Outcome;
+use super::comparison;
+use super::figures::figure;
 use super::run_report::{CriterionReport, RunReport};
 
 const GREEN: &str = "\u{1b}[32m";
@@ -14,6 +16,10 @@ pub fn text(report: &RunReport) -> String {
     lines.extend(report.error.iter().map(|error| format!("{RED}{error}{PLAIN}\n")));
     if !report.criteria.is_empty() {
         lines.extend(criteria(&report.criteria));
+        lines.push(String::new());
+    }
+    if let Some(comparison) = &report.comparison {
+        lines.extend(comparison::table(comparison));
         lines.push(String::new());
     }
     if report.error.is_none() {
@@ -72,20 +78,6 @@ fn verdict_colour(criterion: &CriterionReport) -> &'static str {
         (true, true) => GREEN,
         (true, false) => RED,
         (false, _) => "",
-    }
-}
-
-/// Three significant figures, without an exponent where none is needed.
-fn figure(number: f64) -> String {
-    let magnitude = number.abs();
-    if number == 0.0 {
-        "0".to_owned()
-    } else if (1e-4..1e6).contains(&magnitude) {
-        let decimals = (2 - magnitude.log10().floor() as i32).clamp(0, 6) as usize;
-        let fixed = format!("{number:.decimals$}");
-        if fixed.contains('.') { fixed.trim_end_matches('0').trim_end_matches('.').to_owned() } else { fixed }
-    } else {
-        format!("{number:.2e}")
     }
 }
 
@@ -152,18 +144,4 @@ fn phases(report: &RunReport) -> Vec<String> {
     let hash = report.state_hash.as_ref().map(|hash| format!("  state hash            {hash}"));
     let took = (!each.is_empty()).then(|| format!("  wall time             {}{factor}", each.join(", ")));
     took.into_iter().chain(hash).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::figure;
-
-    #[test]
-    fn figures_are_short_and_keep_three_digits() {
-        for (number, shown) in
-            [(0.0, "0"), (0.012, "0.012"), (0.0123456, "0.0123"), (-14.2, "-14.2"), (1e-7, "1.00e-7"), (298000.0, "298000")]
-        {
-            assert_eq!(figure(number), shown);
-        }
-    }
 }
