@@ -15,6 +15,7 @@ mod mark;
 mod outline;
 mod svg;
 mod ticks;
+mod transitions;
 
 pub use chart::{Axis, Chart, Figure};
 pub use error::FigureError;
@@ -22,3 +23,4 @@ pub use graph::{Edge, Node, graph};
 pub use mark::{Anchor, Mark, Shape, Symbol};
 pub use outline::{covariance_ellipse, ellipse};
 pub use svg::svg;
+pub use transitions::{chain_color, transitions};
