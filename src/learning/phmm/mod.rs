@@ -22,6 +22,7 @@ mod model;
 mod settings;
 mod standardisation;
 mod starts;
+mod state_chain;
 mod statistics;
 
 pub use baum_welch::FitStatus;
@@ -31,4 +32,5 @@ pub use kmeans::k_means;
 pub use maximisation::{Penalty, maximise_state};
 pub use model::{Phmm, Sequence};
 pub use settings::{PhmmSettings, Start, Topology};
+pub use state_chain::{StateChain, TransitionEdge, TransitionGraph, TransitionNode};
 pub use statistics::{Group, gather};
