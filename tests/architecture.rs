@@ -8,7 +8,7 @@ const ROWS: [&[&str]; 9] = [
     &["math"],
     &["demonstration"],
     &["learning", "robot"],
-    &["world", "control"],
+    &["world", "control", "planar"],
     &["simulation"],
     &["check", "recording"],
     &["scenario", "report"],
