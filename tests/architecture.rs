@@ -8,7 +8,7 @@ const ROWS: [&[&str]; 9] = [
     &["math", "palette"],
     &["demonstration"],
     &["learning", "robot"],
-    &["world", "control"],
+    &["world", "control", "planar"],
     &["simulation"],
     &["check", "recording", "figure"],
     &["scenario", "report"],

@@ -33,6 +33,7 @@ pub use learn::{Learned, learn};
 pub use linear_map::LinearMap;
 pub use orientation::OrientationProfile;
 pub use parameters::ParameterSpace;
+pub use prepare::motion_sequences;
 pub use report::{FitReport, LearningReport, StateReport};
 pub use settings::{LearningSettings, ShapingKind};
 pub use skill::Skill;
