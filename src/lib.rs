@@ -30,12 +30,12 @@
 //! |---|---|---|
 //! | 8 | [`cli`] | the terminal |
 //! | 7 | [`scenario`], [`report`] | text in, text out |
-//! | 6 | [`check`], [`recording`] | readers of step records |
+//! | 6 | [`check`], [`recording`], [`figure`] | readers of what a run left behind |
 //! | 5 | [`simulation`] | teach, replay, execute: the only room that knows both world and control |
-//! | 4 | [`world`], [`control`] | physics; decisions |
+//! | 4 | [`world`], [`control`], [`planar`] | physics; decisions; the paper's experiments without an arm |
 //! | 3 | [`learning`], [`robot`] | what was learned; what the arm is |
 //! | 2 | [`demonstration`] | what a person showed |
-//! | 1 | [`math`] | numbers |
+//! | 1 | [`math`], [`palette`] | numbers; colours |
 //!
 //! # Notation
 //! Inside functions equations use the paper's symbols as ASCII names (`tau, alpha, s, g, x0, f, zeta`); fields and arguments use words.
@@ -51,8 +51,11 @@ pub mod check;
 pub mod cli;
 pub mod control;
 pub mod demonstration;
+pub mod figure;
 pub mod learning;
 pub mod math;
+pub mod palette;
+pub mod planar;
 pub mod recording;
 pub mod report;
 pub mod robot;

@@ -5,22 +5,23 @@ use std::path::{Path, PathBuf};
 
 /// The rooms by row, the lowest first. A room imports only rooms of lower rows.
 const ROWS: [&[&str]; 9] = [
-    &["math"],
+    &["math", "palette"],
     &["demonstration"],
     &["learning", "robot"],
-    &["world", "control"],
+    &["world", "control", "planar"],
     &["simulation"],
-    &["check", "recording"],
+    &["check", "recording", "figure"],
     &["scenario", "report"],
     &["batch"],
     &["cli"],
 ];
 
 /// Foreign crates that only some rooms may know.
-const FOREIGN: [(&str, &[&str]); 12] = [
+const FOREIGN: [(&str, &[&str]); 13] = [
     ("rapier3d_f64", &["world"]),
     ("parry3d_f64", &["world"]),
     ("rerun", &["recording"]),
+    ("plotters", &["figure"]),
     ("parquet", &["recording", "demonstration", "batch"]),
     // `dataset.toml` is a list of files that the reader of datasets owns; the language of scenarios is known to `scenario` alone.
     ("toml", &["scenario", "demonstration"]),

@@ -3,6 +3,7 @@
 mod architecture;
 mod cli;
 mod faults;
+mod figure;
 mod paper;
 mod physics;
 mod recording;

@@ -18,7 +18,8 @@ pub struct SettingFault {
 
 impl SettingFault {
     /// A fault when `value` does not lie in `[from, to]`.
-    pub(super) fn outside(setting: &str, value: f64, from: f64, to: f64, unit: &str) -> Option<Self> {
+    #[must_use]
+    pub fn outside(setting: &str, value: f64, from: f64, to: f64, unit: &str) -> Option<Self> {
         let range = format!("{from} to {to} {unit}").trim_end().to_owned();
         (!(from..=to).contains(&value)).then(|| Self { setting: setting.to_owned(), value, range })
     }

@@ -36,6 +36,7 @@ pub use learn::{Learned, learn, learn_from};
 pub use linear_map::LinearMap;
 pub use orientation::OrientationProfile;
 pub use parameters::ParameterSpace;
+pub use prepare::motion_sequences;
 pub use report::{FitReport, LearningReport, StateReport};
 pub use settings::{LearningSettings, ShapingKind};
 pub use skill::{Request, Skill};

@@ -33,6 +33,16 @@ pub(super) struct Prepared {
     pub(super) largest_gap_s: f64,
 }
 
+/// What the motion model learns from: phase input and forcing targets (4) of every demonstration.
+///
+/// # Errors
+/// When settings are outside their ranges or the dataset is not usable.
+pub fn motion_sequences(dataset: &Dataset, settings: &LearningSettings) -> Result<Vec<Sequence>, LearningError> {
+    settings.check()?;
+    dataset.check()?;
+    Ok(prepare(dataset, settings)?.iter().map(|prepared| prepared.motion_sequence(settings)).collect())
+}
+
 /// All demonstrations of a dataset.
 pub(super) fn prepare(dataset: &Dataset, settings: &LearningSettings) -> Result<Vec<Prepared>, LearningError> {
     dataset.demonstrations.iter().map(|d| prepare_one(d, dataset, settings)).collect()

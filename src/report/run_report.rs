@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::Outcome;
 use super::sections;
+use super::{ComparisonReport, Outcome};
 use crate::check::Criterion;
 use crate::simulation::{Experiment, RunOutcome};
 
@@ -37,6 +37,8 @@ pub struct RunReport {
     pub collisions: Vec<CollisionReport>,
     /// The smallest distance to every watched object.
     pub clearance: Vec<ClearanceReport>,
+    /// What several methods made of the same settings; `null` for a run of an arm.
+    pub comparison: Option<ComparisonReport>,
     /// Where the skill complies.
     pub compliance: Option<ComplianceReport>,
     /// What the person did.
@@ -243,6 +245,7 @@ impl RunReport {
             criteria: Vec::new(),
             collisions: Vec::new(),
             clearance: Vec::new(),
+            comparison: None,
             compliance: None,
             human: None,
             learning: None,

@@ -1,6 +1,7 @@
 //! The report for people: what was asked, what came of it, what touched, what it took.
 
 use super::Outcome;
+use super::comparison;
 use super::run_report::{CriterionReport, RunReport};
 use super::table::figure;
 
@@ -15,6 +16,10 @@ pub fn text(report: &RunReport) -> String {
     lines.extend(report.error.iter().map(|error| format!("{RED}{error}{PLAIN}\n")));
     if !report.criteria.is_empty() {
         lines.extend(criteria(&report.criteria));
+        lines.push(String::new());
+    }
+    if let Some(comparison) = &report.comparison {
+        lines.extend(comparison::table(comparison));
         lines.push(String::new());
     }
     if report.error.is_none() {

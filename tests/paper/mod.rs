@@ -7,3 +7,4 @@ mod learning_execution;
 mod learning_laws;
 mod learning_pick_and_place;
 mod pick_and_place;
+mod planar_obstacle_avoidance;

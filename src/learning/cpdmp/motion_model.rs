@@ -71,13 +71,19 @@ impl MotionModel {
         }
     }
 
+    /// The parametric model; `None` for the baseline.
+    #[must_use]
+    pub fn phmm(&self) -> Option<&Phmm> {
+        match &self.shaping {
+            Shaping::Phmm(phmm) => Some(phmm),
+            Shaping::Lwr(_) => None,
+        }
+    }
+
     /// Number of states; 0 for the baseline.
     #[must_use]
     pub fn states(&self) -> usize {
-        match &self.shaping {
-            Shaping::Phmm(phmm) => phmm.states(),
-            Shaping::Lwr(_) => 0,
-        }
+        self.phmm().map_or(0, Phmm::states)
     }
 
     /// Which motion columns are positions in space: those in m, or all when none is.

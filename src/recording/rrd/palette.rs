@@ -1,33 +1,36 @@
-//! The colours of a recording. Data colours are those of Okabe and Ito, told apart by people with any colour vision.
+//! What the colours of a recording mean.
 
 use rerun::Color;
 
-const fn rgb(r: u8, g: u8, b: u8) -> Color {
-    Color(rerun::datatypes::Rgba32::from_rgb(r, g, b))
+use crate::palette::{self, Rgb};
+
+/// A colour in rerun's terms.
+pub(super) const fn rgb(color: Rgb) -> Color {
+    Color(rerun::datatypes::Rgba32::from_rgb(color.red, color.green, color.blue))
 }
 
 /// What was taught.
-pub(super) const TAUGHT: Color = rgb(150, 150, 150);
+pub(super) const TAUGHT: Color = rgb(palette::GREY);
 /// What was generated.
-pub(super) const PLANNED: Color = rgb(86, 180, 233);
+pub(super) const PLANNED: Color = rgb(palette::SKY_BLUE);
 /// What was executed.
-pub(super) const EXECUTED: Color = rgb(230, 159, 0);
+pub(super) const EXECUTED: Color = rgb(palette::ORANGE);
 /// A stiff state.
-pub(super) const STIFF: Color = rgb(0, 158, 115);
+pub(super) const STIFF: Color = rgb(palette::GREEN);
 /// A state that complies.
-pub(super) const COMPLIES: Color = rgb(204, 121, 167);
+pub(super) const COMPLIES: Color = rgb(palette::PURPLE);
 /// A state that minimises the force error.
-pub(super) const MINIMISES: Color = rgb(240, 228, 66);
+pub(super) const MINIMISES: Color = rgb(palette::YELLOW);
 /// What is measured.
-pub(super) const MEASURED: Color = rgb(0, 114, 178);
+pub(super) const MEASURED: Color = rgb(palette::BLUE);
 /// What is expected.
-pub(super) const EXPECTED: Color = rgb(240, 228, 66);
+pub(super) const EXPECTED: Color = rgb(palette::YELLOW);
 /// What the person does.
-pub(super) const PERSON: Color = rgb(213, 94, 0);
+pub(super) const PERSON: Color = rgb(palette::VERMILION);
 /// Nothing of interest.
-pub(super) const IDLE: Color = rgb(70, 74, 82);
+pub(super) const IDLE: Color = rgb(Rgb::new(70, 74, 82));
 /// Behind the scene.
-pub(super) const BACKGROUND: Color = rgb(74, 82, 94);
+pub(super) const BACKGROUND: Color = rgb(Rgb::new(74, 82, 94));
 
 /// A lighter shade, for text on dark grey.
 pub(super) fn light(color: Color) -> Color {

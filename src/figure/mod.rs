@@ -1,0 +1,26 @@
+//! Drawings for papers: what a run left behind as SVG, the only room that knows plotters.
+//!
+//! A [`Figure`] is plain data: panels of marks in the units of their axes, and one legend for all. [`svg`] draws it. Text stays text and no
+//! font is needed to draw it; nothing lies outside of the page. Colours are those of [`crate::palette`].
+
+mod canvas;
+mod chart;
+mod draw_chart;
+mod draw_mark;
+mod error;
+mod extent;
+mod graph;
+mod legend;
+mod mark;
+mod outline;
+mod svg;
+mod ticks;
+mod transitions;
+
+pub use chart::{Axis, Chart, Figure};
+pub use error::FigureError;
+pub use graph::{Edge, Node, graph};
+pub use mark::{Anchor, Mark, Shape, Symbol};
+pub use outline::{covariance_ellipse, ellipse};
+pub use svg::svg;
+pub use transitions::{chain_color, transitions};

@@ -1,0 +1,7 @@
+//! Colours that people with any colour vision tell apart: one palette for figures and recordings, so that a thing has one colour everywhere.
+
+mod okabe_ito;
+mod rgb;
+
+pub use okabe_ito::{BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY_BLUE, VERMILION, YELLOW};
+pub use rgb::Rgb;

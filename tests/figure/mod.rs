@@ -1,0 +1,4 @@
+//! Figures as SVG.
+
+mod drawing;
+mod transition_graph;
