@@ -9,6 +9,7 @@ mod files;
 mod judged_run;
 mod list;
 mod load;
+mod planar_files;
 mod progress;
 mod run;
 mod select;

@@ -8,12 +8,13 @@ mod figures;
 mod lock;
 mod manifest;
 mod outcome;
+mod planar;
 mod run_folder;
 mod run_report;
 mod sections;
 mod text;
 
-pub use comparison::{ComparisonReport, MethodResult, MethodSummary, SettingReport};
+pub use comparison::{ComparisonReport, MethodSummary, MovementReport, SettingReport};
 pub use manifest::{FileHash, Host, Manifest, hash_file};
 pub use outcome::Outcome;
 pub use run_folder::{OutputError, RunFolder, write_file};

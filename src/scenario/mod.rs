@@ -8,8 +8,10 @@
 mod build;
 mod build_criteria;
 mod build_learning;
+mod build_planar;
 mod build_scene;
 mod check_names;
+mod check_planar;
 mod check_taught;
 mod check_times;
 mod checks;
@@ -33,8 +35,10 @@ mod tree;
 mod view;
 mod walk;
 mod words;
+mod work;
 
 pub use diagnostic::{Diagnostic, InvalidScenario};
 pub use fault::{Code, Severity};
 pub use load::{LoadOptions, RecordingPlan, Scenario};
 pub use render::render;
+pub use work::{PlanarPlan, PlanarRun, Work};
