@@ -1,5 +1,7 @@
 //! What a scenario asks of a run, and what came of it.
 
+use crate::planar::Method;
+
 /// One question about a run and the answer that the scenario expects.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CriterionSpec {
@@ -47,6 +49,23 @@ pub enum CriterionKind {
         /// The smallest distance allowed (m).
         min_m: f64,
     },
+    /// The movements of a method stay away from the obstacle. Value: the smallest clearance (m), negative inside. Without such a movement there
+    /// is no answer.
+    PlanarClearance {
+        /// Whose movements.
+        method: Method,
+        /// In which settings.
+        settings: PlanarSettings,
+        /// The smallest clearance allowed (m).
+        min_m: f64,
+    },
+    /// The movements of a method collide at least once. Value: settings with a collision.
+    PlanarCollides {
+        /// Whose movements.
+        method: Method,
+        /// In which settings.
+        settings: PlanarSettings,
+    },
     /// The tool ends at the skill's goal, as learned for the setting. Value: the distance (m).
     GoalReached {
         /// The largest distance allowed (m).
@@ -84,6 +103,19 @@ pub enum CriterionKind {
     },
 }
 
+/// Settings of a planar experiment, by what was demonstrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanarSettings {
+    /// Every one.
+    All,
+    /// Those that were demonstrated.
+    Taught,
+    /// Those between the demonstrated ones.
+    New,
+    /// Those outside of them.
+    Beyond,
+}
+
 /// The answer to one criterion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Criterion {
@@ -99,7 +131,7 @@ pub struct Criterion {
     pub limit: f64,
     /// How far the value is on the right side of the limit, in `unit` (negative: on the wrong side).
     pub margin: f64,
-    /// `m`, `N`, `s` or `pairs`.
+    /// `m`, `N`, `s`, `pairs` or `settings`.
     pub unit: &'static str,
     /// When it first failed (s), if it failed at a moment.
     pub first_failed_time_s: Option<f64>,

@@ -11,7 +11,7 @@ pub fn judge(outcome: &RunOutcome, experiment: &Experiment, specs: &[CriterionSp
 }
 
 /// A measured value against its limit, before names are put to it.
-struct Answer {
+pub(super) struct Answer {
     passed: bool,
     value: f64,
     limit: f64,
@@ -24,8 +24,22 @@ impl Answer {
         Self { passed: value <= limit, value, limit, unit, first_failed_time_s: None }
     }
 
-    fn at_least(value: f64, limit: f64, unit: &'static str) -> Self {
+    pub(super) fn at_least(value: f64, limit: f64, unit: &'static str) -> Self {
         Self { passed: value >= limit, value, limit, unit, first_failed_time_s: None }
+    }
+
+    /// The answer to `spec`; `upper` tells whether the limit is the largest value allowed.
+    pub(super) fn criterion(self, spec: &CriterionSpec, upper: bool) -> Criterion {
+        Criterion {
+            name: spec.name.clone(),
+            expect: spec.expect,
+            passed: self.passed,
+            value: self.value,
+            limit: self.limit,
+            margin: if upper { self.limit - self.value } else { self.value - self.limit },
+            unit: self.unit,
+            first_failed_time_s: self.first_failed_time_s,
+        }
     }
 
     fn first_failed(mut self, time_s: Option<f64>) -> Self {
@@ -42,6 +56,9 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         }
         CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
         CriterionKind::Clearance { objects, min_m } => (clearance(outcome, objects, *min_m), false),
+        // Asked of planar experiments only: of an arm there is nothing to measure.
+        CriterionKind::PlanarClearance { min_m, .. } => (Answer::at_least(f64::NAN, *min_m, "m"), false),
+        CriterionKind::PlanarCollides { .. } => (Answer::at_least(f64::NAN, 1.0, "settings"), false),
         CriterionKind::GoalReached { max_m } => (goal_reached(outcome, *max_m), true),
         CriterionKind::HumanForce { max_n } => (human_force(outcome, *max_n), true),
         CriterionKind::ComplianceWindow { stiff_at } => (compliance_window(steps, experiment, stiff_at), false),
@@ -49,17 +66,7 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         CriterionKind::ReferenceUnmoved { max_m } => (reference_unmoved(steps, *max_m), true),
         CriterionKind::GripperUnmoved { max_m } => (gripper_unmoved(steps, *max_m), true),
     };
-    let margin = if upper { answer.limit - answer.value } else { answer.value - answer.limit };
-    Criterion {
-        name: spec.name.clone(),
-        expect: spec.expect,
-        passed: answer.passed,
-        value: answer.value,
-        limit: answer.limit,
-        margin,
-        unit: answer.unit,
-        first_failed_time_s: answer.first_failed_time_s,
-    }
+    answer.criterion(spec, upper)
 }
 
 fn object_in_container(outcome: &RunOutcome, experiment: &Experiment, object: &str, container: &str, speed_max: f64) -> Answer {

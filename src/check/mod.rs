@@ -2,8 +2,10 @@
 
 mod criterion;
 mod judge;
+mod judge_planar;
 mod windows;
 
-pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation};
+pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, PlanarSettings};
 pub use judge::judge;
+pub use judge_planar::judge_planar;
 pub use windows::{Window, compliance_windows, human_windows};

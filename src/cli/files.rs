@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use super::judged_run::JudgedRun;
+use super::judged_run::{JudgedRun, Left};
+use super::planar_files;
 use crate::recording;
 use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file, write_file};
-use crate::scenario::Scenario;
-use crate::simulation::{DemonstrationSource, RunOutcome};
+use crate::scenario::{RecordingPlan, Scenario, Work};
+use crate::simulation::{DemonstrationSource, Experiment, RunOutcome};
 
 /// Writes everything into the folder. A recording that cannot be written is told in the report, which is written all the same.
 pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<(), OutputError> {
@@ -24,8 +25,15 @@ pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder
 }
 
 /// What can only be written after a whole run. Returns what could not be written.
-fn recordings(left: &RunOutcome, scenario: &Scenario, folder: &Path) -> Vec<String> {
-    let plan = scenario.recording;
+fn recordings(left: &Left, scenario: &Scenario, folder: &Path) -> Vec<String> {
+    match (left, &scenario.work) {
+        (Left::Arm(left), Work::Arm(experiment)) => of_arm(left, experiment, scenario.recording, folder),
+        (Left::Planar(left), Work::Planar(run)) => planar_files::write(left, run, scenario.recording, folder),
+        _ => vec!["what was run is not what the scenario asks for".to_owned()],
+    }
+}
+
+fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folder: &Path) -> Vec<String> {
     let mut failures = Vec::new();
     if plan.demonstrations {
         failures.extend(left.dataset.write(&folder.join("demonstrations")).err().map(|error| error.to_string()));
@@ -38,7 +46,7 @@ fn recordings(left: &RunOutcome, scenario: &Scenario, folder: &Path) -> Vec<Stri
     }
     #[cfg(feature = "rerun")]
     if plan.rrd {
-        let written = recording::write_recording(&folder.join("recording.rrd"), &scenario.experiment, left);
+        let written = recording::write_recording(&folder.join("recording.rrd"), experiment, left);
         failures.extend(written.err().map(|error| error.to_string()));
     }
     failures
@@ -57,8 +65,9 @@ fn manifest(run: &JudgedRun, scenario: &Scenario, started: SystemTime) -> Manife
 /// The files that decide a run: the scenario with what it extends, the robot, the dataset.
 fn inputs(scenario: &Scenario) -> Vec<PathBuf> {
     let mut files = scenario.files.clone();
-    files.extend(scenario.experiment.robot.urdf.clone());
-    if let DemonstrationSource::Dataset(folder) = &scenario.experiment.demonstrations {
+    let Work::Arm(experiment) = &scenario.work else { return files };
+    files.extend(experiment.robot.urdf.clone());
+    if let DemonstrationSource::Dataset(folder) = &experiment.demonstrations {
         let mut of_dataset: Vec<PathBuf> = match std::fs::read_dir(folder) {
             Ok(entries) => entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect(),
             Err(_) => vec![folder.clone()],

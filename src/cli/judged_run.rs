@@ -1,18 +1,27 @@
 //! One scenario from its settings to its report.
 
-use crate::check::judge;
+use crate::check::{judge, judge_planar};
 use crate::demonstration::DemonstrationError;
 use crate::learning::LearningError;
+use crate::planar::PlanarOutcome;
 use crate::report::{Outcome, RunReport};
-use crate::scenario::Scenario;
-use crate::simulation::{self, Progress, RunOutcome, SimulationError};
+use crate::scenario::{PlanarRun, Scenario, Work};
+use crate::simulation::{self, Experiment, Progress, RunOutcome, SimulationError};
 use crate::world::WorldError;
 
 /// A run, as far as it came, with its report.
 pub(super) struct JudgedRun {
     /// What it left behind; nothing if it could not be finished.
-    pub left: Option<RunOutcome>,
+    pub left: Option<Left>,
     pub report: RunReport,
+}
+
+/// What a run left behind.
+pub(super) enum Left {
+    /// A simulated world.
+    Arm(Box<RunOutcome>),
+    /// Paths in a plane.
+    Planar(Box<PlanarOutcome>),
 }
 
 impl JudgedRun {
@@ -22,17 +31,51 @@ impl JudgedRun {
     }
 }
 
-/// Simulates a scenario and judges it.
+/// Runs a scenario and judges it.
 pub(super) fn judged_run(scenario: &Scenario, progress: &dyn Progress) -> JudgedRun {
-    let experiment = &scenario.experiment;
+    let mut run = match &scenario.work {
+        Work::Arm(experiment) => arm(experiment, scenario, progress),
+        Work::Planar(planar) => plane(planar, scenario, progress),
+    };
+    if run.left.is_some() {
+        run.report.warnings.extend(scenario.warnings.iter().map(ToString::to_string));
+    }
+    run
+}
+
+fn arm(experiment: &Experiment, scenario: &Scenario, progress: &dyn Progress) -> JudgedRun {
     match simulation::run(experiment, progress) {
         Ok(left) => {
             let criteria = judge(&left, experiment, &scenario.criteria);
-            let mut report = RunReport::finished(experiment, &left, &criteria);
-            report.warnings.extend(scenario.warnings.iter().map(ToString::to_string));
-            JudgedRun { left: Some(left), report }
+            JudgedRun { report: RunReport::finished(experiment, &left, &criteria), left: Some(Left::Arm(Box::new(left))) }
         }
-        Err(error) => JudgedRun { left: None, report: RunReport::failed(experiment, outcome_of(&error), &error.to_string()) },
+        Err(error) => failed(scenario, outcome_of(&error), &error.to_string()),
+    }
+}
+
+fn plane(planar: &PlanarRun, scenario: &Scenario, progress: &dyn Progress) -> JudgedRun {
+    progress.phase("learn", 0);
+    let started_s = progress.elapsed_s();
+    match planar.run() {
+        Ok(left) => {
+            let criteria = judge_planar(&left, &scenario.criteria);
+            let wall_s = progress.elapsed_s() - started_s;
+            let report = RunReport::of_planar(&planar.name, planar.seed, &left, &criteria, wall_s);
+            JudgedRun { report, left: Some(Left::Planar(Box::new(left))) }
+        }
+        Err(error) => failed(scenario, of_learning(&error), &error.to_string()),
+    }
+}
+
+fn failed(scenario: &Scenario, outcome: Outcome, error: &str) -> JudgedRun {
+    JudgedRun { left: None, report: RunReport::failed(scenario.work.name(), scenario.work.seed(), outcome, error) }
+}
+
+/// How a command ends that cannot learn.
+pub(super) fn of_learning(error: &LearningError) -> Outcome {
+    match error {
+        LearningError::Settings(_) | LearningError::Demonstration(_) => Outcome::InvalidInput,
+        _ => Outcome::LearningFailed,
     }
 }
 
@@ -40,8 +83,7 @@ pub(super) fn judged_run(scenario: &Scenario, progress: &dyn Progress) -> Judged
 pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
     match error {
         SimulationError::World(WorldError::Diverged { .. }) => Outcome::Diverged,
-        SimulationError::Learning(LearningError::Settings(_) | LearningError::Demonstration(_)) => Outcome::InvalidInput,
-        SimulationError::Learning(_) => Outcome::LearningFailed,
+        SimulationError::Learning(error) => of_learning(error),
         SimulationError::Demonstrations(DemonstrationError::Io { .. } | DemonstrationError::Invalid(_))
         | SimulationError::Urdf(_)
         | SimulationError::Arm(_)

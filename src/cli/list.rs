@@ -32,7 +32,7 @@ pub(super) fn list(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> O
         let loaded = Scenario::load(path, &options);
         match (terminal.format, loaded) {
             (Format::Json, Ok(scenario)) => {
-                let (name, description) = (Some(scenario.experiment.name), Some(scenario.description));
+                let (name, description) = (Some(scenario.work.name().to_owned()), Some(scenario.description));
                 terminal.json(&Listed { path, valid: true, name, description });
             }
             (Format::Json, Err(_)) => terminal.json(&Listed { path, valid: false, name: None, description: None }),

@@ -15,6 +15,7 @@ mod learn;
 mod learning_args;
 mod list;
 mod load;
+mod planar_files;
 mod progress;
 mod run;
 mod select;

@@ -10,7 +10,7 @@ use super::progress::Shown;
 use super::select::select;
 use super::terminal::Terminal;
 use crate::report::{Outcome, RunFolder, text};
-use crate::simulation::Experiment;
+use crate::scenario::Work;
 
 /// Runs every scenario; all are checked before the first one begins. The worst outcome counts.
 pub(super) fn run(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Outcome {
@@ -18,7 +18,7 @@ pub(super) fn run(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Ou
         Ok(ready) => ready,
         Err(outcome) => return outcome,
     };
-    let folders: Vec<PathBuf> = ready.iter().map(|one| folder(global.out.as_deref(), ready.len(), &one.scenario.experiment)).collect();
+    let folders: Vec<PathBuf> = ready.iter().map(|one| folder(global.out.as_deref(), ready.len(), &one.scenario.work)).collect();
     if let Some(index) = (1..folders.len()).find(|&index| folders[..index].contains(&folders[index])) {
         let (path, folder) = (ready[index].path.display(), folders[index].display());
         terminal.error(&format!(
@@ -30,8 +30,8 @@ pub(super) fn run(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Ou
     outcomes.max().unwrap_or(Outcome::NothingSelected)
 }
 
-fn folder(out: Option<&Path>, scenarios: usize, experiment: &Experiment) -> PathBuf {
-    let own = format!("{}-{}", experiment.name, experiment.seed);
+fn folder(out: Option<&Path>, scenarios: usize, work: &Work) -> PathBuf {
+    let own = format!("{}-{}", work.name(), work.seed());
     match out {
         Some(out) if scenarios == 1 => out.to_path_buf(),
         Some(out) => out.join(own),
@@ -49,7 +49,7 @@ fn run_one(ready: &Ready, target: &Path, global: &Global, terminal: &Terminal) -
         }
     };
     let started = std::time::SystemTime::now();
-    terminal.note(&format!("{}: {}\n", ready.scenario.experiment.name, ready.path.display()));
+    terminal.note(&format!("{}: {}\n", ready.scenario.work.name(), ready.path.display()));
     let progress = Shown::new(terminal);
     let mut run = judged_run(&ready.scenario, &progress);
     if !run.wants_folder() {

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::args::{Format, Global};
-use super::judged_run::outcome_of;
+use super::judged_run::{of_learning, outcome_of};
 use super::load::options;
 use super::select::select;
 use super::terminal::Terminal;
 use crate::report::Outcome;
-use crate::scenario::{Diagnostic, Scenario};
-use crate::simulation::{Setup, SimulationError};
+use crate::scenario::{Diagnostic, Scenario, Work};
+use crate::simulation::Setup;
 
 /// What is known about one scenario.
 #[derive(Serialize)]
@@ -58,13 +58,13 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
         Err(diagnostics) => checked.diagnostics = diagnostics,
         Ok(scenario) => {
             let found = beyond_the_file(&scenario);
-            checked.outcome = found.as_ref().map_or_else(outcome_of, |_| Outcome::Passed);
+            checked.outcome = found.as_ref().map_or_else(|(outcome, _)| *outcome, |_| Outcome::Passed);
             checked.exit_code = checked.outcome.exit_code();
-            checked.scenario = Some(scenario.experiment.name);
+            checked.scenario = Some(scenario.work.name().to_owned());
             checked.diagnostics = scenario.warnings;
             match found {
                 Ok(warnings) => checked.warnings = warnings,
-                Err(error) => checked.error = Some(error.to_string()),
+                Err((_, error)) => checked.error = Some(error),
             }
         }
     }
@@ -72,10 +72,15 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
 }
 
 /// Loads the robot and the dataset that the scenario names and looks whether the arm can go its way; what is odd about the robot.
-fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, SimulationError> {
-    let setup = Setup::new(&scenario.experiment)?;
-    setup.preflight()?;
-    Ok(setup.warnings.iter().map(ToString::to_string).collect())
+fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outcome, String)> {
+    match &scenario.work {
+        Work::Planar(planar) => planar.check().map(|()| Vec::new()).map_err(|error| (of_learning(&error), error.to_string())),
+        Work::Arm(experiment) => {
+            let checked = Setup::new(experiment).and_then(|setup| setup.preflight().map(|()| setup));
+            let setup = checked.map_err(|error| (outcome_of(&error), error.to_string()))?;
+            Ok(setup.warnings.iter().map(ToString::to_string).collect())
+        }
+    }
 }
 
 fn tell(checked: &Checked<'_>, global: &Global, terminal: &Terminal) {

@@ -10,6 +10,8 @@ use super::mark::Mark;
 
 /// Height of a row (pt).
 const ROW_PT: f64 = 15.0;
+/// Space above, to the labels of the panels (pt).
+const ABOVE_PT: f64 = 8.0;
 /// Width of a sample with the space behind it (pt).
 const SAMPLE_PT: f64 = 34.0;
 /// Space between columns, and at both sides (pt).
@@ -41,14 +43,14 @@ impl<'a> Legend<'a> {
 
     /// Its height (pt).
     pub fn height_pt(&self) -> f64 {
-        if self.entries.is_empty() { 0.0 } else { self.entries.len().div_ceil(self.columns) as f64 * ROW_PT + GAP_PT }
+        if self.entries.is_empty() { 0.0 } else { self.entries.len().div_ceil(self.columns) as f64 * ROW_PT + ABOVE_PT + GAP_PT }
     }
 
     /// Draws it at the top of an area.
     pub fn draw(&self, area: &Page<'_, Shift>) -> Drawn<()> {
         for (index, mark) in self.entries.iter().enumerate() {
             let x = self.left_pt + (index % self.columns) as f64 * self.column_pt;
-            let y = (index / self.columns) as f64 * ROW_PT + ROW_PT / 2.0;
+            let y = ABOVE_PT + (index / self.columns) as f64 * ROW_PT + ROW_PT / 2.0;
             draw_sample(mark, [x, y], SAMPLE_PT - 8.0, area)?;
             let style = plain(Pos::new(HPos::Left, VPos::Center));
             area.draw_text(&mark.legend, &style, (steps(x + SAMPLE_PT), steps(y))).map_err(|error| error.to_string())?;

@@ -21,7 +21,7 @@ pub const PATH_LOG_VERSION: u32 = 1;
 pub const PATH_COLUMNS: [(&str, &str); 5] = [
     ("method", "what made the path; `demonstration` for what was shown"),
     ("setting", "the setting that it is for, as in report.json, or the name of the demonstration"),
-    ("time_s", "time since the start of the path (s)"),
+    ("time_fraction", "elapsed fraction of the movement, from 0 to 1"),
     ("x_m", "place along x (m)"),
     ("y_m", "place along y (m)"),
 ];
@@ -33,9 +33,7 @@ pub struct LoggedPath<'a> {
     pub method: &'a str,
     /// The setting that it is for.
     pub setting: &'a str,
-    /// Times (s).
-    pub times_s: &'a [f64],
-    /// Places (m), one per time.
+    /// Places (m), equally timed.
     pub points_m: &'a [[f64; 2]],
 }
 
@@ -51,13 +49,14 @@ pub fn write_path_log(path: &Path, paths: &[LoggedPath<'_>]) -> Result<(), Recor
 fn write(file: File, paths: &[LoggedPath<'_>]) -> Result<(), ParquetError> {
     let mut writer = SerializedFileWriter::new(file, schema()?, Arc::new(properties()))?;
     for path in paths {
-        let rows = path.times_s.len().min(path.points_m.len());
+        let rows = path.points_m.len();
+        let last = rows.saturating_sub(1).max(1) as f64;
         let mut group = writer.next_row_group()?;
         words(&mut group, path.method, rows)?;
         words(&mut group, path.setting, rows)?;
-        numbers(&mut group, &path.times_s[..rows])?;
+        numbers(&mut group, &(0..rows).map(|row| row as f64 / last).collect::<Vec<_>>())?;
         for axis in 0..2 {
-            numbers(&mut group, &path.points_m[..rows].iter().map(|point| point[axis]).collect::<Vec<_>>())?;
+            numbers(&mut group, &path.points_m.iter().map(|point| point[axis]).collect::<Vec<_>>())?;
         }
         group.close()?;
     }

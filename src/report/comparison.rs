@@ -3,150 +3,198 @@
 use serde::Serialize;
 
 use super::table::figure;
+use crate::planar::{Case, Guidance, Method, Movement, PlanarOutcome};
 
 /// Methods beside each other.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ComparisonReport {
     /// Every setting, with what each method made of it.
     pub settings: Vec<SettingReport>,
-    /// Every method over all settings.
+    /// Every method over all settings that are judged for it.
     pub methods: Vec<MethodSummary>,
 }
 
 /// One setting.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SettingReport {
-    /// Its name: unique in the comparison.
+    /// Its name.
     pub name: String,
+    /// What the models are told beside the shape of the task: `one_side`, `with_side` or `without_side`.
+    pub guidance: &'static str,
     /// `taught`, `new` (between the demonstrated ones) or `beyond` (outside of them).
     pub kind: &'static str,
-    /// Clearance of the ideal path (m).
+    /// How far it lies outside what was demonstrated, as a fraction of its range; 0 inside.
+    pub extrapolation: Option<f64>,
+    /// Clearance of the ideal path (m): the smaller one where there are two.
     pub ideal_clearance_m: Option<f64>,
-    /// The method with the largest clearance; `null` when two have it.
-    pub winner: Option<String>,
-    /// What each method made of it, in the order of [`ComparisonReport::methods`].
-    pub results: Vec<MethodResult>,
+    /// The method that keeps most of the ideal clearance on every side asked for; `null` when every method fails on one.
+    pub winner: Option<&'static str>,
+    /// Every movement of every method.
+    pub results: Vec<MovementReport>,
 }
 
-/// What one method made of one setting.
+/// One movement of one method in one setting.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MethodResult {
+pub struct MovementReport {
     /// The method.
-    pub method: String,
-    /// Smallest distance of the path to the obstacle (m): negative where the path is inside, by the depth. `null` without a path.
+    pub method: &'static str,
+    /// Which state chain, counted from 0, where the method is reproduced chain by chain.
+    pub chain: Option<usize>,
+    /// Smallest distance of the path to the obstacle (m); negative is the depth of penetration.
     pub clearance_m: Option<f64>,
     /// Whether the path touches the obstacle.
     pub collides: bool,
-    /// On which side it passes, where that is a question: `left` or `right`.
+    /// On which side it passes: `left` or `right`; `null` when it never comes that far.
     pub side: Option<&'static str>,
+    /// Root mean square distance from the ideal path (m).
+    pub path_error_m: Option<f64>,
+    /// Distance from the end to the goal (m).
+    pub goal_error_m: Option<f64>,
 }
 
 /// One method over all settings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodSummary {
     /// The method.
-    pub method: String,
-    /// Settings in which it collides or has no path.
+    pub method: &'static str,
+    /// What its model was told.
+    pub guidance: &'static str,
+    /// Movements that it made.
+    pub movements: usize,
+    /// Those that collide.
     pub collisions: usize,
-    /// Settings in which it has the largest clearance.
+    /// Settings that it wins.
     pub wins: usize,
     /// Its smallest clearance (m).
     pub worst_clearance_m: Option<f64>,
 }
 
 impl ComparisonReport {
-    /// From settings whose results stand in one order of methods. Winners and summaries follow from them.
+    /// The comparison of an experiment.
     #[must_use]
-    pub fn of(mut settings: Vec<SettingReport>) -> Self {
-        for setting in &mut settings {
-            setting.winner = winner(&setting.results);
+    pub fn of(outcome: &PlanarOutcome) -> Self {
+        let mut methods: Vec<MethodSummary> = Vec::new();
+        for guidance in [Guidance::OneSide, Guidance::WithSide, Guidance::WithoutSide] {
+            let cases: Vec<&Case> = outcome.cases_with(guidance).collect();
+            methods.extend(methods_of(&cases).into_iter().map(|method| summary(method, guidance, &cases)));
         }
-        let names = settings.first().map_or(&[][..], |setting| &setting.results);
-        let methods = names.iter().enumerate().map(|(index, result)| summary(&result.method, index, &settings)).collect();
-        Self { settings, methods }
+        Self { settings: outcome.cases.iter().map(setting).collect(), methods }
     }
 }
 
-/// Clearances nearer to each other than this are a draw (m): no reader of a figure could tell them apart.
-const DRAW_M: f64 = 1e-6;
+/// The methods of some cases, each once, in their order.
+fn methods_of(cases: &[&Case]) -> Vec<Method> {
+    let mut methods: Vec<Method> = cases.iter().flat_map(|case| &case.movements).map(|movement| movement.method).collect();
+    methods.sort();
+    methods.dedup();
+    methods
+}
 
-fn winner(results: &[MethodResult]) -> Option<String> {
-    let mut ranked: Vec<(f64, &str)> = results.iter().filter_map(|result| Some((result.clearance_m?, result.method.as_str()))).collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    match ranked[..] {
-        [(first, _), (second, _), ..] if first - second < DRAW_M => None,
-        [(_, method), ..] => Some(method.to_owned()),
-        [] => None,
+fn guidance_name(guidance: Guidance) -> &'static str {
+    match guidance {
+        Guidance::OneSide => "one_side",
+        Guidance::WithSide => "with_side",
+        Guidance::WithoutSide => "without_side",
     }
 }
 
-fn summary(method: &str, index: usize, settings: &[SettingReport]) -> MethodSummary {
-    let results = || settings.iter().filter_map(|setting| setting.results.get(index));
-    let clearances = results().filter_map(|result| result.clearance_m);
+fn kind(case: &Case) -> &'static str {
+    match (case.taught, case.extrapolation > 0.0) {
+        (true, _) => "taught",
+        (false, false) => "new",
+        (false, true) => "beyond",
+    }
+}
+
+fn finite(number: f64) -> Option<f64> {
+    number.is_finite().then_some(number)
+}
+
+fn setting(case: &Case) -> SettingReport {
+    SettingReport {
+        name: case.name.clone(),
+        guidance: guidance_name(case.guidance),
+        kind: kind(case),
+        extrapolation: finite(case.extrapolation),
+        ideal_clearance_m: case.ideals.iter().map(|ideal| ideal.clearance_m).reduce(f64::min),
+        winner: case.winner.map(Method::key),
+        results: case.movements.iter().map(movement).collect(),
+    }
+}
+
+fn movement(movement: &Movement) -> MovementReport {
+    MovementReport {
+        method: movement.method.key(),
+        chain: movement.chain,
+        clearance_m: finite(movement.clearance_m),
+        collides: movement.collides,
+        side: movement.side.map(|side| side.key()),
+        path_error_m: finite(movement.path_error_m),
+        goal_error_m: finite(movement.goal_error_m),
+    }
+}
+
+fn summary(method: Method, guidance: Guidance, cases: &[&Case]) -> MethodSummary {
+    let movements = || cases.iter().flat_map(|case| case.of(method));
     MethodSummary {
-        method: method.to_owned(),
-        collisions: results().filter(|result| result.collides || result.clearance_m.is_none()).count(),
-        wins: settings.iter().filter(|setting| setting.winner.as_deref() == Some(method)).count(),
-        worst_clearance_m: clearances.reduce(f64::min),
+        method: method.key(),
+        guidance: guidance_name(guidance),
+        movements: movements().count(),
+        collisions: movements().filter(|movement| movement.collides).count(),
+        wins: cases.iter().filter(|case| case.winner == Some(method)).count(),
+        worst_clearance_m: movements().map(|movement| movement.clearance_m).reduce(f64::min).and_then(finite),
     }
 }
 
-/// The table: one row per setting, one column per method, `*` at the winner, `!` at a collision.
+/// The tables, one for each thing that models can be told: a row per setting, a column per method.
 pub(super) fn table(comparison: &ComparisonReport) -> Vec<String> {
-    let heads = ["setting", "", "ideal"].map(str::to_owned).into_iter().chain(comparison.methods.iter().map(|m| m.method.clone()));
-    let mut rows: Vec<Vec<String>> = vec![heads.collect()];
-    for setting in &comparison.settings {
-        let metres = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{} m", figure(value)));
-        let cell = |result: &MethodResult| {
-            let won = setting.winner.as_ref() == Some(&result.method);
-            let side = result.side.map_or(String::new(), |side| format!(" {side}"));
-            let flags = format!("{}{}", if result.collides { "!" } else { " " }, if won { "*" } else { " " });
-            format!("{}{side} {flags}", metres(result.clearance_m))
-        };
-        let start = [setting.name.clone(), setting.kind.to_owned(), metres(setting.ideal_clearance_m)];
-        rows.push(start.into_iter().chain(setting.results.iter().map(cell)).collect());
+    let mut lines = Vec::new();
+    for guidance in ["one_side", "with_side", "without_side"] {
+        let methods: Vec<&MethodSummary> = comparison.methods.iter().filter(|method| method.guidance == guidance).collect();
+        let settings = comparison.settings.iter().filter(|setting| setting.guidance == guidance);
+        let mut rows: Vec<Vec<String>> = settings.map(|setting| row(setting, &methods)).collect();
+        if rows.is_empty() {
+            continue;
+        }
+        let heads = ["setting", guidance, "ideal"].into_iter().chain(methods.iter().map(|method| method.method));
+        rows.insert(0, heads.map(|head| head.replace('_', " ")).collect());
+        let totals = methods.iter().map(|method| format!("{} won, {} of {} collide", method.wins, method.collisions, method.movements));
+        rows.push(["all", "", ""].map(str::to_owned).into_iter().chain(totals).collect());
+        lines.extend(aligned(&rows));
     }
-    let totals = comparison.methods.iter().map(|m| format!("{} wins, {} collisions", m.wins, m.collisions));
-    rows.push(["all", "", ""].map(str::to_owned).into_iter().chain(totals).collect());
-    let columns = rows[0].len();
-    let widths: Vec<usize> =
-        (0..columns).map(|column| rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)).collect();
+    lines.push("  clearance to the obstacle in m; * wins, ! collides".to_owned());
+    lines
+}
+
+fn row(setting: &SettingReport, methods: &[&MethodSummary]) -> Vec<String> {
+    let metres = |value: Option<f64>| value.map_or("-".to_owned(), figure);
+    let cell = |method: &&MethodSummary| {
+        let of = setting.results.iter().filter(|result| result.method == method.method);
+        let each = of.map(|result| {
+            let side = if setting.guidance == "one_side" { "" } else { result.side.unwrap_or("no side") };
+            format!(
+                "{}{}{side}{}",
+                metres(result.clearance_m),
+                if side.is_empty() { "" } else { " " },
+                if result.collides { "!" } else { "" }
+            )
+        });
+        let won = if setting.winner == Some(method.method) { " *" } else { "  " };
+        format!("{}{won}", each.collect::<Vec<_>>().join(", "))
+    };
+    let start = [setting.name.clone(), setting.kind.to_owned(), metres(setting.ideal_clearance_m)];
+    start.into_iter().chain(methods.iter().map(cell)).collect()
+}
+
+/// Rows with columns as wide as their widest entry; numbers to the right.
+fn aligned(rows: &[Vec<String>]) -> Vec<String> {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
     let pad = |(column, cell): (usize, &String)| {
-        let width = widths.get(column).copied().unwrap_or(0);
+        let width = widths[column];
         if column < 2 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
     };
     let line = |row: &Vec<String>| format!("  {}", row.iter().enumerate().map(pad).collect::<Vec<_>>().join("  ")).trim_end().to_owned();
-    let note = "  clearance to the obstacle; * the largest, ! a collision".to_owned();
-    rows.iter().map(line).chain([note]).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn setting(name: &str, clearances: [Option<f64>; 2]) -> SettingReport {
-        let result = |(method, clearance_m): (&str, Option<f64>)| MethodResult {
-            method: method.to_owned(),
-            clearance_m,
-            collides: clearance_m.is_some_and(|clearance| clearance <= 0.0),
-            side: None,
-        };
-        let results = ["CPDMP", "LWR-DMP"].into_iter().zip(clearances).map(result).collect();
-        SettingReport { name: name.to_owned(), kind: "new", ideal_clearance_m: Some(1.0), winner: None, results }
-    }
-
-    #[test]
-    fn the_largest_clearance_wins_whoever_has_it() {
-        let settings =
-            [("a", [Some(0.9), Some(-0.2)]), ("b", [Some(0.5), Some(0.8)]), ("c", [Some(0.7), Some(0.7)]), ("d", [None, Some(-1.0)])];
-        let comparison = ComparisonReport::of(settings.map(|(name, clearances)| setting(name, clearances)).into());
-        let winners: Vec<Option<&str>> = comparison.settings.iter().map(|setting| setting.winner.as_deref()).collect();
-        assert_eq!(winners, [Some("CPDMP"), Some("LWR-DMP"), None, Some("LWR-DMP")]);
-        let [ours, rival] = &comparison.methods[..] else { panic!("two methods") };
-        assert_eq!((ours.wins, ours.collisions, ours.worst_clearance_m), (1, 1, Some(0.5)));
-        assert_eq!((rival.wins, rival.collisions, rival.worst_clearance_m), (2, 2, Some(-1.0)));
-        let lines = table(&comparison);
-        assert!(lines[1].contains("0.9 m  *") && lines[1].ends_with("-0.2 m !"), "{}", lines[1]);
-        assert!(lines[2].contains("0.5 m   ") && lines[2].ends_with("0.8 m  *"), "{}", lines[2]);
-    }
+    rows.iter().map(line).collect()
 }

@@ -12,6 +12,7 @@ mod lock;
 mod manifest;
 mod outcome;
 mod output_file;
+mod planar;
 mod robot_section;
 mod run_folder;
 mod run_report;
@@ -21,7 +22,7 @@ mod skill_section;
 mod table;
 mod text;
 
-pub use comparison::{ComparisonReport, MethodResult, MethodSummary, SettingReport};
+pub use comparison::{ComparisonReport, MethodSummary, MovementReport, SettingReport};
 pub use data_section::{ColumnRow, DataSection, DemonstrationRow};
 pub use error_section::{ErrorRow, ValidationRow, ValidationSection};
 pub use learn_report::LearnReport;

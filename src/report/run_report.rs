@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::sections;
 use super::{ComparisonReport, Outcome};
+use super::{planar, sections};
 use crate::check::Criterion;
+use crate::planar::PlanarOutcome;
 use crate::simulation::{Experiment, RunOutcome};
 
 /// The version of `report.json`.
@@ -51,7 +52,7 @@ pub struct RunReport {
     pub steps: u64,
     /// Simulated seconds per second of wall time, over the phases that simulate.
     pub real_time_factor: Option<f64>,
-    /// Hash over every body's state at every step: equal hashes, equal runs.
+    /// Hash over every body's state at every step, or over every number of a planar experiment: equal hashes, equal runs.
     pub state_hash: Option<String>,
     /// What looks odd but did not stop the run.
     pub warnings: Vec<String>,
@@ -202,6 +203,7 @@ impl RunReport {
     pub fn finished(experiment: &Experiment, outcome: &RunOutcome, criteria: &[Criterion]) -> Self {
         let as_expected = criteria.iter().all(Criterion::as_expected);
         let steps = outcome.phases.iter().map(|phase| phase.steps).sum();
+        let parameters = experiment.parameters.0.iter();
         Self {
             robot: Some(outcome.robot.name.clone()),
             criteria: criteria.iter().map(sections::criterion).collect(),
@@ -215,13 +217,28 @@ impl RunReport {
             real_time_factor: sections::real_time_factor(experiment.physics.step_s, &outcome.phases),
             state_hash: Some(format!("{:016x}", outcome.state_hash)),
             warnings: outcome.robot_warnings.iter().map(ToString::to_string).collect(),
-            ..Self::empty(experiment, if as_expected { Outcome::Passed } else { Outcome::CriteriaNotMet })
+            parameters: parameters.map(|(name, value)| ParameterReport { name: name.clone(), value: *value }).collect(),
+            ..Self::empty(&experiment.name, experiment.seed, if as_expected { Outcome::Passed } else { Outcome::CriteriaNotMet })
+        }
+    }
+
+    /// The report of a planar experiment, named `name`, that took `wall_s` (s).
+    pub fn of_planar(name: &str, seed: u64, outcome: &PlanarOutcome, criteria: &[Criterion], wall_s: f64) -> Self {
+        let as_expected = criteria.iter().all(Criterion::as_expected);
+        Self {
+            criteria: criteria.iter().map(sections::criterion).collect(),
+            comparison: Some(ComparisonReport::of(outcome)),
+            learning: outcome.models.first().map(planar::learning),
+            phases: vec![PhaseReport { name: "learn".to_owned(), steps: 0, wall_s }],
+            state_hash: Some(format!("{:016x}", planar::hash(outcome))),
+            warnings: planar::warnings(outcome),
+            ..Self::empty(name, seed, if as_expected { Outcome::Passed } else { Outcome::CriteriaNotMet })
         }
     }
 
     /// The report of a run that could not be finished.
-    pub fn failed(experiment: &Experiment, outcome: Outcome, error: &str) -> Self {
-        Self { error: Some(error.to_owned()), ..Self::empty(experiment, outcome) }
+    pub fn failed(name: &str, seed: u64, outcome: Outcome, error: &str) -> Self {
+        Self { error: Some(error.to_owned()), ..Self::empty(name, seed, outcome) }
     }
 
     /// The same report with another outcome.
@@ -230,18 +247,17 @@ impl RunReport {
         self.exit_code = outcome.exit_code();
     }
 
-    fn empty(experiment: &Experiment, outcome: Outcome) -> Self {
-        let parameters = experiment.parameters.0.iter();
+    fn empty(name: &str, seed: u64, outcome: Outcome) -> Self {
         Self {
             schema_version: SCHEMA_VERSION,
             version: env!("CARGO_PKG_VERSION"),
-            scenario: experiment.name.clone(),
-            seed: experiment.seed,
+            scenario: name.to_owned(),
+            seed,
             outcome,
             exit_code: outcome.exit_code(),
             error: None,
             robot: None,
-            parameters: parameters.map(|(name, value)| ParameterReport { name: name.clone(), value: *value }).collect(),
+            parameters: Vec::new(),
             criteria: Vec::new(),
             collisions: Vec::new(),
             clearance: Vec::new(),

@@ -85,7 +85,7 @@ pub(super) fn learning(report: &LearningReport) -> LearningSection {
     }
 }
 
-fn fit_status(status: FitStatus) -> &'static str {
+pub(super) fn fit_status(status: FitStatus) -> &'static str {
     match status {
         FitStatus::Converged => "converged",
         FitStatus::IterationLimit => "iteration_limit",

@@ -23,7 +23,8 @@ pub fn text(report: &RunReport) -> String {
         lines.push(String::new());
     }
     if report.error.is_none() {
-        lines.extend(contacts(report));
+        // What a planar experiment touches is in its comparison.
+        lines.extend(report.comparison.is_none().then(|| contacts(report)).into_iter().flatten());
         lines.extend(clearances(report));
         lines.extend(person(report));
         lines.extend(compliance(report));
@@ -129,7 +130,8 @@ fn learning(report: &RunReport) -> Vec<String> {
     let Some(learning) = &report.learning else { return Vec::new() };
     let likelihood = learning.log_likelihood.last().copied().flatten();
     let models = match (learning.starts, likelihood) {
-        (0, _) => String::new(),
+        (0, None) => String::new(),
+        (0, Some(value)) => format!(", {} states, log-likelihood {}", learning.states, figure(value)),
         (starts, None) => format!(", {} states, best of {starts} starts", learning.states),
         (starts, Some(value)) => format!(", {} states, best of {starts} starts, log-likelihood {}", learning.states, figure(value)),
     };

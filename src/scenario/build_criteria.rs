@@ -1,11 +1,26 @@
 //! A filled tree to what a run must show.
 
 use super::tree::Node;
-use crate::check::{CriterionKind, CriterionSpec, Expectation};
+use crate::check::{CriterionKind, CriterionSpec, Expectation, PlanarSettings};
+use crate::planar::Method;
 
 /// What a scenario asks of the run.
 pub(super) fn criteria(scenario: &Node) -> Vec<CriterionSpec> {
     scenario.tables("criterion").iter().filter_map(criterion).collect()
+}
+
+fn method(table: &Node) -> Option<Method> {
+    let methods = [Method::Cpdmp, Method::CpdmpProduct, Method::CpdmpChain, Method::LwrDmp, Method::TpGmm];
+    methods.into_iter().find(|method| method.key() == table.text("method"))
+}
+
+fn settings(table: &Node) -> PlanarSettings {
+    match table.text("settings") {
+        "taught" => PlanarSettings::Taught,
+        "new" => PlanarSettings::New,
+        "beyond" => PlanarSettings::Beyond,
+        _ => PlanarSettings::All,
+    }
 }
 
 fn criterion(table: &Node) -> Option<CriterionSpec> {
@@ -19,6 +34,10 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
         },
         "no_contact" => CriterionKind::NoContact { objects: table.texts("objects") },
         "clearance" => CriterionKind::Clearance { objects: table.texts("objects"), min_m: table.number("min_m") },
+        "planar_clearance" => {
+            CriterionKind::PlanarClearance { method: method(table)?, settings: settings(table), min_m: table.number("min_m") }
+        }
+        "planar_collides" => CriterionKind::PlanarCollides { method: method(table)?, settings: settings(table) },
         "goal_reached" => CriterionKind::GoalReached { max_m: max_m() },
         "human_force" => CriterionKind::HumanForce { max_n: table.number("max_n") },
         "compliance_window" => CriterionKind::ComplianceWindow { stiff_at: table.texts("stiff_at") },

@@ -1,6 +1,7 @@
 //! What no single key can tell: names that refer to something, times that rise, settings that agree with each other.
 
 use super::check_names::{references, unique_names};
+use super::check_planar::planar;
 use super::check_taught::{grid, parameters_are_taught};
 use super::check_times::{pushes, waypoints};
 use super::fault::{Code, Fault};
@@ -13,6 +14,10 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     unique_names(scenario, "object", &mut faults);
     unique_names(scenario, "criterion", &mut faults);
     references(scenario, &mut faults);
+    planar(scenario, &mut faults);
+    if is_typed(scenario, "planar") {
+        return faults;
+    }
     source_of_demonstrations(scenario, &mut faults);
     if let Some(teaching) = scenario.get("teaching") {
         grid(scenario, teaching, &mut faults);
@@ -46,7 +51,7 @@ fn source_of_demonstrations(scenario: &Node, faults: &mut Vec<Fault>) {
 }
 
 /// Whether the key was typed at all, even if its value is of no use: what stands for an absent one has its table's origin.
-fn is_typed(table: &Node, key: &str) -> bool {
+pub(super) fn is_typed(table: &Node, key: &str) -> bool {
     table.entry(key).is_some_and(|entry| entry.node.origin != table.origin)
 }
 

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::build;
 use super::build_criteria;
+use super::build_planar;
+use super::check_planar;
 use super::checks;
 use super::conform::Conform;
 use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
@@ -16,14 +18,14 @@ use super::roots::Roots;
 use super::schema::{SCENARIO, SCHEMA_VERSION};
 use super::source::Sources;
 use super::tree::{Node, Value};
+use super::work::Work;
 use crate::check::CriterionSpec;
-use crate::simulation::Experiment;
 
 /// A scenario file, checked: everything in it makes sense on its own and together.
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// What is simulated.
-    pub experiment: Experiment,
+    /// What is run.
+    pub work: Work,
     /// What the run must show.
     pub criteria: Vec<CriterionSpec>,
     /// What is written to the run folder.
@@ -71,16 +73,23 @@ impl Scenario {
         let diagnostics = diagnose(faults, &sources);
         match scenario {
             Some(filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => Ok(Self {
-                experiment: build::experiment(&filled),
+                work: work(&filled),
                 criteria: build_criteria::criteria(&filled),
                 recording: build::recording(&filled),
                 description: filled.text("description").to_owned(),
-                resolved: resolved::write(&filled),
+                resolved: resolved::write(&check_planar::without_arm(filled)),
                 files: sources.files(),
                 warnings: diagnostics,
             }),
             _ => Err(InvalidScenario(diagnostics)),
         }
+    }
+}
+
+fn work(filled: &Node) -> Work {
+    match filled.get("planar") {
+        Some(_) => Work::Planar(Box::new(build_planar::planar(filled))),
+        None => Work::Arm(Box::new(build::experiment(filled))),
     }
 }
 
@@ -139,6 +148,7 @@ mod tests {
     use super::*;
     use crate::learning::LearningSettings;
     use crate::learning::cpdmp::CouplingSettings;
+    use crate::simulation::Experiment;
     use crate::world::{HumanSettings, PhysicsSettings, SensorSettings};
 
     /// A scenario with nothing but what must be typed.
@@ -156,9 +166,14 @@ mod tests {
         Scenario::load(&path, &LoadOptions::default()).expect("a good scenario")
     }
 
+    fn arm(scenario: Scenario) -> Experiment {
+        let Work::Arm(experiment) = scenario.work else { panic!("no arm") };
+        *experiment
+    }
+
     #[test]
     fn the_defaults_of_the_language_are_those_of_the_rooms() {
-        let experiment = load(BARE).experiment;
+        let experiment = arm(load(BARE));
         assert_eq!(experiment.learning, LearningSettings::default());
         assert_eq!(experiment.execution.coupling, CouplingSettings::default());
         assert_eq!(experiment.human, HumanSettings::default());
@@ -227,8 +242,8 @@ mod tests {
         let typed = load(&format!("{BARE}{rich}{}", criteria.collect::<String>()));
         let again = load(&typed.resolved);
         assert_eq!(again.resolved, typed.resolved);
-        assert_eq!(format!("{:?}", again.experiment), format!("{:?}", typed.experiment));
+        assert_eq!(format!("{:?}", again.work), format!("{:?}", typed.work));
         assert_eq!(again.criteria, typed.criteria);
-        assert_eq!((typed.criteria.len(), typed.experiment.objects.len()), (9, 5));
+        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (9, 5));
     }
 }

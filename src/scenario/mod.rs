@@ -8,8 +8,10 @@
 mod build;
 mod build_criteria;
 mod build_learning;
+mod build_planar;
 mod build_scene;
 mod check_names;
+mod check_planar;
 mod check_taught;
 mod check_times;
 mod checks;
@@ -34,6 +36,7 @@ mod tree;
 mod view;
 mod walk;
 mod words;
+mod work;
 
 pub use diagnostic::{Diagnostic, InvalidScenario};
 pub use fault::{Code, Severity};
@@ -41,3 +44,4 @@ pub use learning_file::{LearningOptions, learning_settings};
 pub use load::{LoadOptions, RecordingPlan, Scenario};
 pub use render::render;
 pub use suggest::did_you_mean;
+pub use work::{PlanarPlan, PlanarRun, Work};

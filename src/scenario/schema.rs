@@ -20,6 +20,8 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
     Key::new("seed", Count(0, i64::MAX), "decides every random number of the run").or(Preset::Count(0)),
     Key::new("parameters", Numbers, "task parameters: the setting in which the skill is executed").or_empty(),
     Key::new("demonstrations", Path(PathTo::Dataset), "a recorded dataset, instead of [teaching]").optional(),
+    Key::new("planar", Section(PLANAR), "an experiment in a plane without an arm, instead of everything about robot, scene and person")
+        .optional(),
     Key::new("robot", Section(ROBOT), "the robot, its postures and its joint controller").or_empty(),
     Key::new("simulation", Section(SIMULATION), "the engine").or_empty(),
     Key::new("object", List(OBJECT), "the scene").or_empty(),
@@ -36,6 +38,39 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
 pub(super) const LEARNING_FILE: Shape = Shape::plain(&[
     Key::new("schema_version", Count(1, SCHEMA_VERSION), "version of the scenario language").optional(),
     Key::new("learning", Section(LEARNING), "how the skill is learned").or_empty(),
+]);
+
+const PLANAR: Shape = Shape {
+    keys: &[
+        Key::new("kind", Tag, "which experiment"),
+        Key::new("obstacle_half_depth_m", Number(within("m", 0.05, 10.0)), "half depth of the obstacle, along y").or_number(0.5),
+        Key::new("start_m", Vector(within("m", -100.0, 100.0), Exactly(2)), "where movements start").or(Preset::Vector(&[0.0, -4.0])),
+        Key::new("goal_y_m", Number(within("m", -100.0, 100.0)), "where goals lie along y").or_number(4.0),
+        Key::new("clearance_m", Number(within("m", 0.01, 10.0)), "distance at which the person passes the obstacle's edge").or_number(1.0),
+        Key::new("pass_fraction", Number(within("", 0.1, 0.9)), "when they pass it, as a fraction of the duration").or_number(0.5),
+        Key::new("hand", Section(HAND), "how movements are shown").or_empty(),
+    ],
+    variants: &[Variant {
+        kind: "obstacle_avoidance",
+        keys: &[
+            Key::new("obstacle_half_width_m", Number(within("m", 0.05, 10.0)), "half width of the obstacle, along x").or_number(1.0),
+            Key::new("taught_goals_x_m", Vector(within("m", -100.0, 100.0), AtLeast(2)), "taught goals along x")
+                .or(Preset::Vector(&[1.0, 2.0, 3.0, 4.0])),
+            Key::new("new_goals_x_m", Vector(within("m", -100.0, 100.0), AtLeast(0)), "new goals along x")
+                .or(Preset::Vector(&[-2.0, -1.0, 0.0, 2.5, 5.0])),
+        ],
+    }],
+};
+
+const HAND: Shape = Shape::plain(&[
+    Key::new("repetitions", Count(1, 50), "how often each situation is shown").or(Preset::Count(2)),
+    Key::new("duration_s", Number(within("s", 0.5, 60.0)), "mean duration").or_number(4.0),
+    Key::new("rate_hz", Number(within("Hz", 10.0, 1000.0)), "samples per second").or_number(100.0),
+    Key::new("duration_spread", Number(within("", 0.0, 0.3)), "spread of the duration, as a fraction of it").or_number(0.05),
+    Key::new("timing_spread", Number(within("", 0.0, 0.1)), "spread of when the obstacle is passed, as a fraction of the duration")
+        .or_number(0.02),
+    Key::new("shape_spread_m", Number(within("m", 0.0, 1.0)), "spread of where it is passed, per axis").or_number(0.05),
+    Key::new("noise_m", Number(within("m", 0.0, 0.1)), "noise of the position sensor per axis, standard deviation").or_number(0.002),
 ]);
 
 const ROBOT: Shape = Shape::plain(&[
@@ -284,6 +319,9 @@ const RECORDING: Shape = Shape::plain(&[
     Key::new("demonstrations", Flag, "demonstrations/, the dataset that was learned from").or(Preset::Flag(true)),
 ]);
 
+/// What makes movements in planar experiments.
+const METHODS: [&str; 5] = ["cpdmp", "cpdmp_product", "cpdmp_chain", "lwr_dmp", "tp_gmm"];
+
 const CRITERION: Shape = Shape {
     keys: &[
         Key::new("name", Name, "its name in reports"),
@@ -305,6 +343,21 @@ const CRITERION: Shape = Shape {
             keys: &[
                 Key::new("objects", References(ObjectOfKind("u_block")), "what must be kept away from"),
                 Key::new("min_m", Number(within("m", 0.0, 1.0)), "smallest distance"),
+            ],
+        },
+        Variant {
+            kind: "planar_clearance",
+            keys: &[
+                Key::new("method", Choice(&METHODS), "whose movements"),
+                Key::new("settings", Choice(&["all", "taught", "new", "beyond"]), "in which settings").or(Preset::Text("all")),
+                Key::new("min_m", Number(within("m", -100.0, 100.0)), "smallest distance to the obstacle"),
+            ],
+        },
+        Variant {
+            kind: "planar_collides",
+            keys: &[
+                Key::new("method", Choice(&METHODS), "whose movements"),
+                Key::new("settings", Choice(&["all", "taught", "new", "beyond"]), "in which settings").or(Preset::Text("all")),
             ],
         },
         Variant { kind: "goal_reached", keys: &[Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest distance to the goal")] },

@@ -2,6 +2,7 @@
 
 mod commands;
 mod overrides;
+mod planar_run;
 mod program;
 mod real_run;
 mod run_folder;

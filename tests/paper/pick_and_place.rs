@@ -9,8 +9,8 @@ use cpdmp::check::{Criterion, judge};
 use cpdmp::demonstration::Dataset;
 use cpdmp::learning::{self, Learned};
 use cpdmp::math;
-use cpdmp::scenario::{LoadOptions, Scenario};
-use cpdmp::simulation::{History, RunOutcome, Setup, Silent, demonstrate, perform};
+use cpdmp::scenario::{LoadOptions, Scenario, Work};
+use cpdmp::simulation::{Experiment, History, RunOutcome, Setup, Silent, demonstrate, perform};
 use rayon::prelude::*;
 
 /// A shipped scenario.
@@ -19,21 +19,27 @@ fn scenario(name: &str) -> Scenario {
     Scenario::load(&path, &LoadOptions::default()).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
+/// Its experiment.
+fn arm(scenario: &Scenario) -> &Experiment {
+    let Work::Arm(experiment) = &scenario.work else { panic!("no arm") };
+    experiment
+}
+
 /// The nine demonstrations of the shipped scenario and what was learned from them.
 fn taught() -> &'static (Dataset, Learned) {
     static TAUGHT: OnceLock<(Dataset, Learned)> = OnceLock::new();
     TAUGHT.get_or_init(|| {
         let scenario = scenario("pick_and_place.toml");
-        let setup = Setup::new(&scenario.experiment).expect("the robot loads");
+        let setup = Setup::new(arm(&scenario)).expect("the robot loads");
         let (dataset, _) = demonstrate(&setup, &Silent).expect("nine demonstrations");
-        let learned = learning::learn(&dataset, &scenario.experiment.learning, 0).expect("a skill");
+        let learned = learning::learn(&dataset, &arm(&scenario).learning, 0).expect("a skill");
         (dataset, learned)
     })
 }
 
 /// One execution of the taught skill in a setting.
 fn executed(scenario: &Scenario, learned: &Learned, height_m: f64, lateral_m: f64, seed: u64) -> (RunOutcome, Vec<Criterion>) {
-    let mut experiment = scenario.experiment.clone();
+    let mut experiment = arm(scenario).clone();
     experiment.seed = seed;
     experiment.parameters = experiment.parameters.with(&[("block_height_m".into(), height_m), ("toy_lateral_m".into(), lateral_m)]);
     let setup = Setup::new(&experiment).expect("the robot loads");
@@ -103,7 +109,7 @@ fn heights_outside_the_taught_range_pass_both_apertures() {
 /// What came of a shipped counterfactual, executed with ten seeds. `place` gives the toy's lateral place for each.
 fn ten_seeds(name: &str, learned: &Learned, place: impl Fn(u64) -> f64 + Sync) -> Vec<(f64, Vec<Criterion>)> {
     let scenario = scenario(name);
-    let height_m = scenario.experiment.parameters.get("block_height_m").expect("a height");
+    let height_m = arm(&scenario).parameters.get("block_height_m").expect("a height");
     (0..10u64).into_par_iter().map(|k| (place(k), executed(&scenario, learned, height_m, place(k), 2000 + k).1)).collect()
 }
 
@@ -151,7 +157,7 @@ fn without_the_coupling_the_person_does_not_bring_the_gripper_within_2_cm() {
 #[test]
 fn the_lwr_baseline_touches_a_block_or_misses_the_toy() {
     let scenario = scenario("pick_and_place_lwr.toml");
-    let learned = learning::learn(&taught().0, &scenario.experiment.learning, 0).expect("a baseline");
+    let learned = learning::learn(&taught().0, &arm(&scenario).learning, 0).expect("a baseline");
     all_as_expected(&ten_seeds("pick_and_place_lwr.toml", &learned, five_cm_aside));
     // At the lowest blocks it flies too high to touch them and misses the toy beside its one path.
     let trials: Vec<_> = (0..10u64).into_par_iter().map(|k| executed(&scenario, &learned, 0.17, five_cm_aside(k), 2000 + k).1).collect();
@@ -168,7 +174,8 @@ fn the_official_robot_executes_the_skill() {
         return;
     }
     let mut scenario = scenario("pick_and_place.toml");
-    scenario.experiment.robot.urdf = Some(urdf);
+    let Work::Arm(experiment) = &mut scenario.work else { panic!("no arm") };
+    experiment.robot.urdf = Some(urdf);
     let (_, criteria) = executed(&scenario, &taught().1, 0.235, -0.04, 5);
     all_as_expected(&[(-0.04, criteria)]);
 }
@@ -177,8 +184,9 @@ fn the_official_robot_executes_the_skill() {
 #[test]
 fn another_teacher_teaches_as_well() {
     let mut scenario = scenario("pick_and_place.toml");
-    scenario.experiment.seed = 11;
-    let outcome = cpdmp::simulation::run(&scenario.experiment, &Silent).expect("a whole run");
-    let criteria = judge(&outcome, &scenario.experiment, &scenario.criteria);
+    let Work::Arm(experiment) = &mut scenario.work else { panic!("no arm") };
+    experiment.seed = 11;
+    let outcome = cpdmp::simulation::run(arm(&scenario), &Silent).expect("a whole run");
+    let criteria = judge(&outcome, arm(&scenario), &scenario.criteria);
     all_as_expected(&[(0.05, criteria)]);
 }

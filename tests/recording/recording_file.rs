@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use cpdmp::recording::entity_path::{self, ENTITIES, Entity, TIMELINES};
 use cpdmp::recording::{RecordingError, write_recording};
-use cpdmp::scenario::{LoadOptions, Scenario};
+use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::{Experiment, RunOutcome};
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
@@ -21,7 +21,9 @@ use super::made_up_run::{CLOSED, COMPLIES, HOLDS, outcome, outcome_of_the_baseli
 /// The shipped experiment.
 fn experiment() -> Experiment {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/pick_and_place.toml");
-    Scenario::load(&path, &LoadOptions::default()).expect("the shipped scenario is valid").experiment
+    let scenario = Scenario::load(&path, &LoadOptions::default()).expect("the shipped scenario is valid");
+    let Work::Arm(experiment) = scenario.work else { panic!("no arm") };
+    *experiment
 }
 
 fn written(outcome: &RunOutcome) -> (TempDir, PathBuf) {

@@ -1,0 +1,51 @@
+//! The files of a planar experiment: demonstrations, paths, figures.
+
+use std::path::Path;
+
+use crate::figure::{Figure, planar_forcing, planar_paths, svg};
+use crate::planar::{Guidance, Method, Movement, PlanarOutcome};
+use crate::recording::{LoggedPath, write_path_log};
+use crate::report::write_file;
+use crate::scenario::{PlanarRun, RecordingPlan};
+
+/// Writes everything into the folder. Returns what could not be written.
+pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, folder: &Path) -> Vec<String> {
+    let mut failures = Vec::new();
+    if plan.demonstrations {
+        let written = run.dataset().map_err(|error| error.to_string());
+        let written = written.and_then(|dataset| dataset.write(&folder.join("demonstrations")).map_err(|error| error.to_string()));
+        failures.extend(written.err());
+    }
+    if plan.steps {
+        failures.extend(write_path_log(&folder.join("paths.parquet"), &paths(left)).err().map(|error| error.to_string()));
+    }
+    failures.extend(draw(left, &folder.join("figures")));
+    failures
+}
+
+/// Every path: demonstrations first, then every movement of every setting.
+fn paths(left: &PlanarOutcome) -> Vec<LoggedPath<'_>> {
+    let shown =
+        left.demonstrations.iter().map(|shown| LoggedPath { method: "demonstration", setting: &shown.name, points_m: &shown.path_m });
+    let moved = left.cases.iter().flat_map(|case| case.movements.iter().map(|movement| logged(movement, &case.name)));
+    shown.chain(moved).collect()
+}
+
+fn logged<'a>(movement: &'a Movement, setting: &'a str) -> LoggedPath<'a> {
+    LoggedPath { method: movement.method.key(), setting, points_m: &movement.path_m }
+}
+
+fn draw(left: &PlanarOutcome, folder: &Path) -> Vec<String> {
+    if let Err(error) = std::fs::create_dir(folder) {
+        return vec![format!("{}: {error}", folder.display())];
+    }
+    let written = |(name, figure): (&str, Figure)| {
+        let document = svg(&figure).map_err(|error| error.to_string())?;
+        write_file(&folder.join(name), &document).map_err(|error| error.to_string())
+    };
+    let figures = [
+        ("paths.svg", planar_paths("Paths to taught and new goals", left, Guidance::OneSide)),
+        ("forcing.svg", planar_forcing("Forcing terms and states of CPDMP", left, Guidance::OneSide, Method::Cpdmp)),
+    ];
+    figures.into_iter().filter_map(|figure| written(figure).err()).collect()
+}

@@ -1,0 +1,78 @@
+//! Paths past the obstacle, method by method: the paper's figure of its first simulated experiment.
+
+use super::chart::{Axis, Chart, Figure};
+use super::mark::{Mark, Symbol};
+use super::outline::ellipse;
+use crate::palette::{BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, Rgb, VERMILION};
+use crate::planar::{Case, Ellipse, Guidance, Method, Movement, PlanarOutcome};
+
+/// Width and height of a panel (pt).
+const PANEL_PT: [f64; 2] = [300.0, 320.0];
+
+/// The colour of a method, in every figure.
+#[must_use]
+pub fn method_color(method: Method) -> Rgb {
+    match method {
+        Method::Cpdmp => BLUE,
+        Method::CpdmpProduct => PURPLE,
+        Method::CpdmpChain => GREEN,
+        Method::LwrDmp => ORANGE,
+        Method::TpGmm => BLACK,
+    }
+}
+
+/// One panel per method: demonstrations, obstacle, paths to taught situations (thin) and to new ones (thick), collisions marked.
+#[must_use]
+pub fn planar_paths(title: &str, outcome: &PlanarOutcome, guidance: Guidance) -> Figure {
+    let cases: Vec<&Case> = outcome.cases_with(guidance).collect();
+    let mut methods: Vec<Method> = cases.iter().flat_map(|case| &case.movements).map(|movement| movement.method).collect();
+    methods.sort();
+    methods.dedup();
+    let panels = methods.iter().map(|method| panel(*method, outcome, &cases)).collect();
+    Figure { title: title.to_owned(), panels, columns: 2, panel_size_pt: PANEL_PT }
+}
+
+fn panel(method: Method, outcome: &PlanarOutcome, cases: &[&Case]) -> Chart {
+    let mut chart = Chart::map(method.title(), [Axis::new("x (m)"), Axis::new("y (m)")]);
+    // Panels of one figure show one stretch of the plane, or they could not be compared.
+    let all = || cases.iter().flat_map(|case| &case.movements).flat_map(|movement| &movement.path_m);
+    for axis in 0..2 {
+        let of = |fold: fn(f64, f64) -> f64, start: f64| all().map(|point| point[axis]).fold(start, fold);
+        if let Some(axes) = &mut chart.axes {
+            axes[axis].includes = vec![of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY)];
+        }
+    }
+    let mut obstacles: Vec<Ellipse> = Vec::new();
+    for case in cases {
+        if !obstacles.contains(&case.obstacle) {
+            obstacles.push(case.obstacle);
+        }
+    }
+    chart.marks.extend(obstacles.iter().map(|o| Mark::area("obstacle", GREY, 0.35, ellipse(o.centre_m, o.half_axes_m))));
+    chart.marks.extend(outcome.demonstrations.iter().map(|shown| Mark::line("demonstrated", GREY, 0.6, shown.path_m.clone())));
+    let movements = || cases.iter().flat_map(|case| case.of(method).map(move |movement| (*case, movement)));
+    chart.marks.extend(movements().map(|(case, movement)| path(case, movement)));
+    let goals = |taught: bool| cases.iter().filter(move |case| case.taught == taught).map(|case| case.goal_m).collect::<Vec<_>>();
+    chart.marks.push(Mark::symbols("taught goal", BLACK, Symbol::Ring, 3.0, goals(true)));
+    chart.marks.push(Mark::symbols("new goal", BLACK, Symbol::Square, 2.5, goals(false)));
+    let hits = movements().filter(|(_, movement)| movement.collides).filter_map(|(case, movement)| deepest(case, movement)).collect();
+    chart.marks.push(Mark::symbols("collision", VERMILION, Symbol::Cross, 4.5, hits));
+    chart
+}
+
+fn path(case: &Case, movement: &Movement) -> Mark {
+    let color = method_color(movement.method);
+    let (kind, width_pt) = if case.taught { ("taught", 0.9) } else { ("new", 2.0) };
+    let legend = format!("{}, {kind}", movement.method.title());
+    if case.taught {
+        Mark::dashes(&legend, color, width_pt, movement.path_m.clone())
+    } else {
+        Mark::line(&legend, color, width_pt, movement.path_m.clone())
+    }
+}
+
+/// The point of a path that is deepest inside the obstacle.
+fn deepest(case: &Case, movement: &Movement) -> Option<[f64; 2]> {
+    let depth = |point: &&[f64; 2]| case.obstacle.signed_distance(**point);
+    movement.path_m.iter().min_by(|a, b| depth(a).total_cmp(&depth(b))).copied()
+}

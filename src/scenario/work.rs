@@ -1,0 +1,82 @@
+//! What a scenario runs: an arm in a simulated world, or a planar experiment.
+
+use crate::demonstration::Dataset;
+use crate::learning::LearningError;
+use crate::planar::{ObstacleAvoidanceSettings, PlanarOutcome, obstacle_avoidance};
+use crate::simulation::Experiment;
+
+/// What a scenario runs.
+#[derive(Clone, Debug)]
+pub enum Work {
+    /// An arm is taught, and executes what it learned, in a simulated world.
+    Arm(Box<Experiment>),
+    /// Movements in a plane are taught, learned by several methods, and compared.
+    Planar(Box<PlanarRun>),
+}
+
+/// A planar experiment with its name and seed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanarRun {
+    /// Name of the scenario.
+    pub name: String,
+    /// Decides every random number.
+    pub seed: u64,
+    /// What is done.
+    pub plan: PlanarPlan,
+}
+
+/// Which planar experiment.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlanarPlan {
+    /// Section 4.1 of the paper.
+    ObstacleAvoidance(ObstacleAvoidanceSettings),
+}
+
+impl Work {
+    /// Name of the scenario.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Arm(experiment) => &experiment.name,
+            Self::Planar(run) => &run.name,
+        }
+    }
+
+    /// Its seed.
+    #[must_use]
+    pub fn seed(&self) -> u64 {
+        match self {
+            Self::Arm(experiment) => experiment.seed,
+            Self::Planar(run) => run.seed,
+        }
+    }
+}
+
+impl PlanarRun {
+    /// Checks what the keys cannot tell on their own.
+    ///
+    /// # Errors
+    /// All settings that make no sense.
+    pub fn check(&self) -> Result<(), LearningError> {
+        let PlanarPlan::ObstacleAvoidance(settings) = &self.plan;
+        settings.check().and_then(|()| settings.learning.check())
+    }
+
+    /// What is shown.
+    ///
+    /// # Errors
+    /// When the settings make no usable trajectory.
+    pub fn dataset(&self) -> Result<Dataset, LearningError> {
+        let PlanarPlan::ObstacleAvoidance(settings) = &self.plan;
+        settings.dataset(self.seed)
+    }
+
+    /// Runs it.
+    ///
+    /// # Errors
+    /// When nothing can be learned.
+    pub fn run(&self) -> Result<PlanarOutcome, LearningError> {
+        let PlanarPlan::ObstacleAvoidance(settings) = &self.plan;
+        obstacle_avoidance(settings, self.seed)
+    }
+}
