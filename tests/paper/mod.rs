@@ -5,4 +5,5 @@ mod learning_execution;
 mod learning_laws;
 mod learning_pick_and_place;
 mod phmm_inference;
+mod phmm_laws;
 mod pick_and_place;
