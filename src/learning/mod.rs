@@ -15,6 +15,7 @@ mod execution;
 mod features;
 mod gmr;
 mod gripper;
+mod infer;
 mod learn;
 mod linear_map;
 mod orientation;
@@ -32,6 +33,7 @@ pub use execution::{ExecutionSettings, SkillExecution, SkillState, TaskSpaceStat
 pub use features::{FeatureMap, Features, Standard};
 pub use gmr::Gmr;
 pub use gripper::GripperProfile;
+pub use infer::{Inference, InferenceSettings, InferenceStatus, infer};
 pub use learn::{Learned, learn, learn_from};
 pub use linear_map::LinearMap;
 pub use orientation::OrientationProfile;

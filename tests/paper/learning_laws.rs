@@ -1,8 +1,8 @@
 //! Laws the learning room must obey whatever the data: expectation maximisation climbs, its steps are maxima, deviations stay within their
 //! bounds, files come back bit for bit, and threads change nothing.
 
-use cpdmp::learning::Features;
 use cpdmp::learning::phmm::{CovarianceMode, FitStatus, Group, Penalty, PhmmSettings, Sequence, Topology, fit, maximise_state, refine};
+use cpdmp::learning::{FeatureMap, Features};
 use cpdmp::math::{standard_normal, stream, uniform};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -30,25 +30,31 @@ fn random_problem(seed: u64, columns: usize, parameters: usize, degenerate: bool
     (0..demonstrations).map(|k| sequence(k, &mut random)).collect()
 }
 
+const FEATURES: [Features; 3] = [Features::Linear, Features::Quadratic, Features::Rbf { centres: 3, width: 1.0 }];
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 250, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
 
     #[test]
     fn the_objective_never_falls(
         seed in 0u64..1_000_000,
         (states, columns, parameters) in (1usize..6, 1usize..4, 0usize..3),
         (ergodic, on_phase, degenerate) in (any::<bool>(), any::<bool>(), any::<bool>()),
+        (features, fixed) in (0usize..3, any::<bool>()),
         ridge in prop_oneof![Just(0.0), Just(0.1), Just(10.0)],
         floor in prop_oneof![Just(2e-6), Just(1e-5), Just(1e-2), Just(0.1)],
         scale in prop_oneof![Just(1e-3), Just(1.0), Just(1e3)],
     ) {
         let sequences = random_problem(seed, columns, parameters, degenerate, scale);
+        let thetas: Vec<DVector<f64>> = sequences.iter().map(|s| s.theta.clone()).collect();
+        let map = FeatureMap::of(FEATURES[features], &thetas, seed);
+        let sequences: Vec<Sequence> = sequences.into_iter().map(|s| s.seen_through(&map)).collect();
         let settings = PhmmSettings {
             states,
             topology: if ergodic { Topology::Ergodic } else { Topology::LeftToRight },
             weights_on_phase: on_phase,
-            features: Features::Linear,
-            covariance: CovarianceMode::Estimated,
+            features: FEATURES[features],
+            covariance: if fixed { CovarianceMode::Fixed } else { CovarianceMode::Estimated },
             ridge,
             covariance_floor: floor,
             kmeans_starts: 1,
