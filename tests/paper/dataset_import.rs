@@ -47,7 +47,7 @@ fn a_folder_of_tables_needs_no_list() {
     let import = import(&[("b.csv", text), ("a.csv", text), ("readme.md", "not data")]);
     assert_eq!(names(&import), ["a", "b"]);
     assert_eq!((import.dataset.motion.join(","), import.dataset.wrench.join(",")), ("x_m".to_owned(), "fx_n,tz_nm".to_owned()));
-    for part in ["columns note", "changes sign 1 times", "motion columns: x_m"] {
+    for part in ["columns note", "changes sign 1 times", "motion [x_m]"] {
         assert!(import.notes.iter().any(|note| note.contains(part)), "nothing about {part}: {:#?}", import.notes);
     }
     assert_fault(&faults(&[("readme.md", "not data")]), &["0 CSV or Parquet files"]);
@@ -107,7 +107,7 @@ fn other_names_units_and_quaternion_orders_are_brought_to_si() {
     let orientations = trajectory.orientations().unwrap();
     assert_eq!((orientations[0].w, orientations[1].j), (1.0, 1.0));
     assert_eq!(import.dataset.motion, ["q1_rad", "x_m", "y_m"]);
-    assert!(import.notes.iter().any(|note| note.contains("x_m is column `px` in mm, times 0.001")), "{:#?}", import.notes);
+    assert!(import.notes.iter().any(|note| note.contains("x_m from `px` in mm (times 0.001)")), "{:#?}", import.notes);
 }
 
 #[test]
