@@ -84,10 +84,10 @@ fn time(table: &Table, list: &List, notes: &mut Notes) -> Result<Option<(String,
                 return Err(faults);
             }
             if column.name != "time_s" {
-                notes.add(&table.place, format!("column {} is the time, times {factor} in s", column.name));
+                notes.add(&table.place, format!("column {} is the time, taken as {factor} s", column.name));
             }
             if rate.is_some() {
-                notes.add(&table.place, format!("rate_hz is not needed, the file has times"));
+                notes.add(&table.place, "rate_hz is not needed, the file has times".to_owned());
             }
             Ok(Some((column.name.clone(), column.values.iter().map(|value| value * factor).collect())))
         }
