@@ -3,6 +3,7 @@
 use toml::{Table as Toml, Value};
 
 use super::list::LIST;
+use super::notes::Notes;
 use super::table::{Column, Table};
 use super::{Fault, QUATERNION_COLUMNS, unit};
 
@@ -13,6 +14,13 @@ pub(super) struct Mapping {
     source: Source,
     /// Unit of the source, if it was given, and its factor to SI.
     unit: Option<(String, f64)>,
+}
+
+impl Mapping {
+    fn in_words(&self) -> String {
+        let unit = self.unit.as_ref().map_or_else(String::new, |(unit, factor)| format!(" in {unit} (times {factor})"));
+        format!("{} from {}{unit}", self.target, self.source.in_words())
+    }
 }
 
 /// A column of the file, by name or by its place counted from 0.
@@ -100,8 +108,9 @@ fn quaternion(value: &Value) -> Result<Vec<Mapping>, String> {
 }
 
 /// The table with the mapped columns first; what has no mapping follows under its own name, if it has one. Notes say what was done.
-pub(super) fn applied(table: Table, mappings: &[Mapping], notes: &mut Vec<String>) -> Result<Table, Vec<Fault>> {
-    let (mut columns, mut used, mut faults) = (Vec::new(), vec![false; table.columns.len()], Vec::new());
+pub(super) fn applied(table: Table, mappings: &[Mapping], notes: &mut Notes) -> Result<Table, Vec<Fault>> {
+    let (mut columns, mut used) = (Vec::new(), vec![false; table.columns.len()]);
+    let (mut told, mut faults) = (Vec::new(), Vec::new());
     for mapping in mappings {
         let Some(place) = mapping.source.find(&table) else {
             let (found, place) = (format!("no column {}", mapping.source.in_words()), format!("{}, {LIST}, columns", table.place));
@@ -110,14 +119,10 @@ pub(super) fn applied(table: Table, mappings: &[Mapping], notes: &mut Vec<String
         };
         used[place] = true;
         columns.push(converted(&table.columns[place], mapping));
-        if let Some((unit, factor)) = &mapping.unit {
-            notes.push(format!(
-                "{}: column {} is column {} in {unit}, times {factor}",
-                table.place,
-                mapping.target,
-                mapping.source.in_words()
-            ));
-        }
+        told.push(mapping.in_words());
+    }
+    if !told.is_empty() {
+        notes.add(&table.place, format!("columns {}", told.join(", ")));
     }
     let rest = || table.columns.iter().zip(&used).filter(|(_, used)| !**used).map(|(column, _)| column);
     if table.header {
@@ -130,7 +135,7 @@ pub(super) fn applied(table: Table, mappings: &[Mapping], notes: &mut Vec<String
         }
     } else if rest().count() > 0 {
         let left_out: Vec<&str> = rest().map(|column| column.name.as_str()).collect();
-        notes.push(format!("{}: columns {} (counted from 0) have no name and are left out", table.place, left_out.join(", ")));
+        notes.add(&table.place, format!("columns {} (counted from 0) have no name and are left out", left_out.join(", ")));
     }
     if !table.header && mappings.is_empty() {
         let expected = "a header such as time_s,x_m,y_m, or header = false and [columns] with places such as x_m = 1";

@@ -90,8 +90,9 @@ fn text_of<'a>(bytes: &'a [u8], place: &str) -> Result<&'a str, DemonstrationErr
     }
 }
 
-/// The delimiter of a line: semicolon before comma before tab before blanks.
+/// The delimiter of a line: semicolon before comma before tab before blanks, outside quotes.
 fn recognised(line: &str) -> char {
+    let line: String = line.split('"').step_by(2).collect();
     [';', ',', '\t'].into_iter().find(|delimiter| line.contains(*delimiter)).unwrap_or(' ')
 }
 

@@ -69,7 +69,7 @@ impl Dataset {
                 if list[..i].contains(name) {
                     faults.push(Fault::new(key, format!("{name} twice"), "every column once"));
                 }
-                if let Some(unit) = ["_mm", "_cm", "_deg", "_ms"].iter().find(|unit| name.ends_with(**unit)) {
+                if let Some(unit) = ["_mm", "_cm", "_km", "_deg", "_ms", "_us", "_kn", "_nmm"].iter().find(|unit| name.ends_with(**unit)) {
                     let found = format!("{name}, in {}", &unit[1..]);
                     faults.push(Fault::new(
                         key,
@@ -86,7 +86,7 @@ impl Dataset {
         let mut faults = Vec::new();
         for (key, list) in [("motion", &self.motion), ("wrench", &self.wrench)] {
             for name in list.iter().filter(|name| demonstration.trajectory.column_index(name).is_none()) {
-                let found = format!("no such column, though {key} lists it");
+                let found = format!("no such column, though it belongs to {key}");
                 let expected = format!("one of {}", demonstration.trajectory.columns().join(", "));
                 faults.push(Fault::new(&demonstration.name, found, expected).in_column(name));
             }

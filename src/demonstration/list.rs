@@ -4,9 +4,10 @@ use std::path::Path;
 
 use toml::{Table, Value};
 
-use super::column_map::Mapping;
+use super::column_map::{self, Mapping};
+use super::list_entries::Entry;
 use super::table::Layout;
-use super::{DemonstrationError, Fault, ParameterSource, Parameters};
+use super::{DemonstrationError, Fault, ParameterSource};
 
 /// The name of the list inside a dataset's folder.
 pub(super) const LIST: &str = "dataset.toml";
@@ -31,17 +32,6 @@ const KEYS: [&str; 13] = [
     "theta_m",
     "theta_f",
 ];
-
-/// One `[[demonstration]]`.
-#[derive(Debug, Default)]
-pub(super) struct Entry {
-    /// How faults call it.
-    pub(super) key: String,
-    pub(super) file: Option<String>,
-    pub(super) sequence: Option<String>,
-    pub(super) theta_m: Parameters,
-    pub(super) theta_f: Parameters,
-}
 
 /// What the list says; a folder without a list has the default.
 #[derive(Debug, Default)]
@@ -91,7 +81,7 @@ impl List {
         list.layout = list.layout(table);
         list.rate_hz = list.rate(table);
         list.source = list.source(table);
-        list.columns = super::column_map::typed(table, &mut list.faults);
+        list.columns = column_map::typed(table, &mut list.faults);
         list.entries = list.entries(table);
         list.check_parameters();
         list
@@ -112,7 +102,7 @@ impl List {
         }
     }
 
-    fn check_keys(&mut self, table: &Table, inside: &str, known: &[&str]) {
+    pub(super) fn check_keys(&mut self, table: &Table, inside: &str, known: &[&str]) {
         for key in table.keys().filter(|key| !known.contains(&key.as_str())) {
             self.fault(&format!("{inside}{key}"), "an unknown key", format!("one of {}", known.join(", ")));
         }
@@ -128,7 +118,7 @@ impl List {
         names
     }
 
-    fn text(&mut self, table: &Table, inside: &str, key: &str) -> Option<String> {
+    pub(super) fn text(&mut self, table: &Table, inside: &str, key: &str) -> Option<String> {
         match table.get(key)? {
             Value::String(text) => Some(text.clone()),
             other => {
@@ -187,59 +177,5 @@ impl List {
         if !self.theta_f.is_empty() && self.entries.iter().any(|entry| !entry.theta_f.is_empty()) {
             self.fault("theta_f", "force parameters from several places", "theta_f = [columns], or theta_f with every [[demonstration]]");
         }
-    }
-}
-
-impl List {
-    fn entries(&mut self, table: &Table) -> Vec<Entry> {
-        let entries = match table.get("demonstration") {
-            Some(Value::Array(entries)) => entries.as_slice(),
-            None => &[],
-            Some(other) => {
-                self.fault("demonstration", other.type_str(), "tables, each headed [[demonstration]]");
-                &[]
-            }
-        };
-        entries.iter().enumerate().filter_map(|(i, entry)| self.entry(entry, &format!("demonstration {}", i + 1))).collect()
-    }
-
-    fn entry(&mut self, entry: &Value, key: &str) -> Option<Entry> {
-        let Some(table) = entry.as_table() else {
-            self.fault(key, entry.type_str(), "a table with file, sequence, theta_m, theta_f");
-            return None;
-        };
-        let inside = format!("{key}, ");
-        self.check_keys(table, &inside, &["file", "sequence", "theta_m", "theta_f"]);
-        let theta_m = self.parameters(table, key, "theta_m");
-        let theta_f = self.parameters(table, key, "theta_f");
-        let file = self.text(table, &inside, "file");
-        let sequence = match table.get("sequence") {
-            None => None,
-            Some(Value::Integer(label)) => Some(label.to_string()),
-            Some(_) => self.text(table, &inside, "sequence"),
-        };
-        Some(Entry { key: key.to_owned(), file, sequence, theta_m, theta_f })
-    }
-
-    /// Parameters sorted by name; absent means none.
-    fn parameters(&mut self, table: &Table, key: &str, name: &str) -> Parameters {
-        let entries = match table.get(name) {
-            Some(Value::Table(entries)) => entries,
-            None => return Vec::new(),
-            Some(other) => {
-                self.fault(&format!("{key}, {name}"), other.to_string(), "a table such as { block_height_m = 0.17 }");
-                return Vec::new();
-            }
-        };
-        let mut parameters = Vec::new();
-        for (parameter, value) in entries {
-            match value {
-                Value::Float(number) if number.is_finite() => parameters.push((parameter.clone(), *number)),
-                Value::Integer(number) => parameters.push((parameter.clone(), *number as f64)),
-                other => self.fault(&format!("{key}, {name}.{parameter}"), other.to_string(), "a finite number"),
-            }
-        }
-        parameters.sort_by(|a, b| a.0.cmp(&b.0));
-        parameters
     }
 }

@@ -1,16 +1,16 @@
 //! A dataset from whatever a person has: a folder with or without a list, or one file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
-use super::list::{Entry, LIST, List};
+use super::list::{LIST, List};
+use super::list_entries::Entry;
+use super::notes::{Notes, about};
 use super::samples::{self, Piece};
 use super::table::{Table, is_samples};
-use super::{
-    Dataset, Demonstration, DemonstrationError, Fault, GRIPPER_COLUMN, ParameterSource, Parameters, QUATERNION_COLUMNS, Trajectory,
-};
+use super::{Dataset, Demonstration, DemonstrationError, Fault, ParameterSource, Parameters, roles};
 
-/// The most files of one dataset, and the most faults that are collected.
+/// The most files and demonstrations of one dataset, and the most faults that are collected.
 const MOST: usize = 10_000;
 
 /// A dataset, and in words what was done to get it: repetitions found, units converted, columns left out, gaps, flips of sign.
@@ -36,10 +36,10 @@ impl Dataset {
     /// # Errors
     /// As [`Self::read`].
     pub fn import(path: &Path) -> Result<Import, DemonstrationError> {
-        let about = std::fs::metadata(path).map_err(DemonstrationError::io(path))?;
+        let kind = std::fs::metadata(path).map_err(DemonstrationError::io(path))?;
         let inside = path.join(LIST);
         let parent = path.parent().unwrap_or(Path::new("")).to_owned();
-        let (folder, mut list) = if about.is_dir() {
+        let (folder, mut list) = if kind.is_dir() {
             let list = if inside.exists() { List::read(&inside)? } else { List::default() };
             (path.to_owned(), list)
         } else if path.extension().is_some_and(|extension| extension == "toml") {
@@ -55,7 +55,7 @@ impl Dataset {
             )]));
         };
         let faults = std::mem::take(&mut list.faults);
-        Reader { folder, list, faults, notes: Vec::new(), files: BTreeMap::new() }.dataset()
+        Reader { folder, list, faults, notes: Notes::default(), files: BTreeMap::new() }.dataset()
     }
 }
 
@@ -64,7 +64,7 @@ struct Reader {
     folder: PathBuf,
     list: List,
     faults: Vec<Fault>,
-    notes: Vec<String>,
+    notes: Notes,
     files: BTreeMap<String, Vec<Piece>>,
 }
 
@@ -77,14 +77,19 @@ impl Reader {
         let mut demonstrations = Vec::new();
         for entry in &entries {
             demonstrations.extend(self.demonstrations(entry));
+            if demonstrations.len() > MOST {
+                self.fault("demonstration", format!("more than {MOST} demonstrations"), format!("at most {MOST}"));
+                break;
+            }
         }
-        for (i, demonstration) in demonstrations.iter().enumerate() {
-            if demonstrations[..i].iter().any(|other: &Demonstration| other.name == demonstration.name) {
+        let mut names = BTreeSet::new();
+        for demonstration in &demonstrations {
+            if !names.insert(demonstration.name.as_str()) {
                 let expected = "every file and sequence once, and names that differ in more than the extension";
                 self.faults.push(Fault::new(LIST, format!("{} twice", demonstration.name), expected));
             }
         }
-        let (motion, wrench) = self.columns(&demonstrations);
+        let (motion, wrench) = roles::columns(&self.list, &demonstrations, &mut self.notes, &mut self.faults);
         let dataset = Dataset { motion, wrench, parameter_source: ParameterSource::Given, demonstrations };
         let dataset = dataset.with_parameter_source(self.list.source);
         if self.faults.is_empty()
@@ -93,9 +98,8 @@ impl Reader {
             self.faults = more;
         }
         if self.faults.is_empty() {
-            self.notes
-                .extend(dataset.demonstrations.iter().flat_map(|demonstration| notes(&demonstration.name, &demonstration.trajectory)));
-            Ok(Import { dataset, notes: self.notes })
+            about(&dataset, &mut self.notes);
+            Ok(Import { dataset, notes: self.notes.in_words() })
         } else {
             self.faults.truncate(MOST);
             Err(DemonstrationError::Invalid(self.faults))
@@ -165,28 +169,6 @@ impl Reader {
         Vec::new()
     }
 
-    /// The columns of both models: as listed, or by their names.
-    fn columns(&mut self, demonstrations: &[Demonstration]) -> (Vec<String>, Vec<String>) {
-        let wrench = self.list.wrench.clone();
-        if let Some(motion) = &self.list.motion {
-            return (motion.clone(), wrench.unwrap_or_default());
-        }
-        let all = demonstrations.first().map_or(&[][..], |demonstration| demonstration.trajectory.columns());
-        let wrench = wrench.unwrap_or_else(|| all.iter().filter(|name| is_wrench(name)).cloned().collect());
-        let other = |name: &&String| QUATERNION_COLUMNS.contains(&name.as_str()) || *name == GRIPPER_COLUMN || is_wrench(name);
-        let motion: Vec<String> = all.iter().filter(|name| !other(name) && !wrench.contains(name)).cloned().collect();
-        self.notes.push(format!("motion columns: {}; wrench columns: {}", motion.join(", "), wrench.join(", ")));
-        for demonstration in demonstrations.iter().skip(1) {
-            let extra = demonstration.trajectory.columns().iter().filter(|name| !all.contains(name));
-            let fault = |name: &String| {
-                let found = format!("a column that {} does not have", demonstrations[0].name);
-                Fault::new(&demonstration.name, found, "the same columns in all files, or a list `motion` in dataset.toml").in_column(name)
-            };
-            self.faults.extend(extra.map(fault));
-        }
-        (motion, wrench)
-    }
-
     fn fault(&mut self, key: &str, found: impl Into<String>, expected: impl Into<String>) {
         self.faults.push(Fault::new(&format!("{LIST}, {key}"), found, expected));
     }
@@ -208,29 +190,4 @@ fn demonstration(stem: &str, label: Option<String>, piece: &Piece, entry: &Entry
 fn same_label(asked: Option<&str>, label: Option<&str>) -> bool {
     let number = |label: Option<&str>| label.and_then(|label| label.parse::<f64>().ok());
     asked == label || number(asked).is_some_and(|asked| number(label) == Some(asked))
-}
-
-/// `fx_n` … and `tx_nm` …: force and torque by their names.
-fn is_wrench(name: &str) -> bool {
-    let bytes = name.as_bytes();
-    (bytes.len() == 4 && bytes[0] == b'f' && name.ends_with("_n")) || (bytes.len() == 5 && bytes[0] == b't' && name.ends_with("_nm"))
-}
-
-/// A gap is told when it is longer than this many usual steps of time (-).
-const GAP: f64 = 5.0;
-
-fn notes(name: &str, trajectory: &Trajectory) -> Vec<String> {
-    let mut notes = Vec::new();
-    let usual = trajectory.duration_s() / (trajectory.samples() - 1) as f64;
-    if trajectory.largest_gap_s() > GAP * usual {
-        notes.push(format!("{name}: a gap of {} s, where a step is {usual} s on average", trajectory.largest_gap_s()));
-    }
-    if let Some(indices) = trajectory.quaternion_indices() {
-        let dot = |t: usize| indices.iter().map(|i| trajectory.values()[(t, *i)] * trajectory.values()[(t - 1, *i)]).sum::<f64>();
-        let flips = (1..trajectory.samples()).filter(|t| dot(*t) < 0.0).count();
-        if flips > 0 {
-            notes.push(format!("{name}: the quaternion changes sign {flips} times; learning makes it continuous"));
-        }
-    }
-    notes
 }

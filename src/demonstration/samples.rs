@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::csv::odd_faults;
 use super::list::List;
+use super::notes::Notes;
 use super::sequences::{self, Sequence};
 use super::table::{Column, Table};
 use super::{Fault, GRIPPER_COLUMN, Parameters, QUATERNION_COLUMNS, Trajectory, column_map};
@@ -34,7 +35,7 @@ pub(super) struct Piece {
 }
 
 /// The repetitions of a table, or everything wrong with them.
-pub(super) fn pieces(table: Table, list: &List, notes: &mut Vec<String>) -> Result<Vec<Piece>, Vec<Fault>> {
+pub(super) fn pieces(table: Table, list: &List, notes: &mut Notes) -> Result<Vec<Piece>, Vec<Fault>> {
     let table = column_map::applied(table, &list.columns, notes)?;
     let taken = [list.motion.as_deref(), list.wrench.as_deref(), Some(&list.theta_m), Some(&list.theta_f)];
     let taken: Vec<String> = taken.into_iter().flatten().flatten().cloned().collect();
@@ -52,10 +53,10 @@ pub(super) fn pieces(table: Table, list: &List, notes: &mut Vec<String>) -> Resu
         let found = format!("{} repetitions", sequences.len());
         return Err(vec![Fault::new(&table.place, found, format!("at most {MOST_SEQUENCES}"))]);
     }
-    let told = |how: String| format!("{}: {} repetitions, told apart by {how}", table.place, sequences.len());
+    let told = |how: String| format!("{} repetitions, told apart by {how}", sequences.len());
     match sequence {
-        Some(column) => notes.push(told(format!("column {}", column.name))),
-        None if sequences.len() > 1 => notes.push(told("time, which starts again".to_owned())),
+        Some(column) => notes.add(&table.place, told(format!("column {}", column.name))),
+        None if sequences.len() > 1 => notes.add(&table.place, told("time, which starts again".to_owned())),
         None => {}
     }
     let mut used = [&list.theta_m[..], &list.theta_f[..]].concat();
@@ -74,7 +75,7 @@ pub(super) fn pieces(table: Table, list: &List, notes: &mut Vec<String>) -> Resu
 }
 
 /// The name of the time column and all times (s); `None` when there is none and the list gives a rate.
-fn time(table: &Table, list: &List, notes: &mut Vec<String>) -> Result<Option<(String, Vec<f64>)>, Vec<Fault>> {
+fn time(table: &Table, list: &List, notes: &mut Notes) -> Result<Option<(String, Vec<f64>)>, Vec<Fault>> {
     let column = TIME_COLUMNS.iter().find_map(|(name, factor)| Some((table.column(name)?, *factor)));
     match (column, list.rate_hz) {
         (Some((column, factor)), rate) => {
@@ -83,15 +84,15 @@ fn time(table: &Table, list: &List, notes: &mut Vec<String>) -> Result<Option<(S
                 return Err(faults);
             }
             if column.name != "time_s" {
-                notes.push(format!("{}: column {} is the time, times {factor} in s", table.place, column.name));
+                notes.add(&table.place, format!("column {} is the time, taken as {factor} s", column.name));
             }
             if rate.is_some() {
-                notes.push(format!("{}: rate_hz is not needed, the file has times", table.place));
+                notes.add(&table.place, "rate_hz is not needed, the file has times".to_owned());
             }
             Ok(Some((column.name.clone(), column.values.iter().map(|value| value * factor).collect())))
         }
         (None, Some(rate)) => {
-            notes.push(format!("{}: times made from rate_hz = {rate}", table.place));
+            notes.add(&table.place, format!("times made from rate_hz = {rate}"));
             Ok(None)
         }
         (None, None) => {
@@ -102,7 +103,7 @@ fn time(table: &Table, list: &List, notes: &mut Vec<String>) -> Result<Option<(S
 }
 
 /// The columns of the trajectories: neither used otherwise, nor text, nor damaged without being asked for.
-fn kept<'a>(table: &'a Table, used: &[String], list: &List, notes: &mut Vec<String>) -> Vec<&'a Column> {
+fn kept<'a>(table: &'a Table, used: &[String], list: &List, notes: &mut Notes) -> Vec<&'a Column> {
     let listed = |name: &String| {
         let motion = list.motion.as_ref().is_none_or(|motion| motion.contains(name));
         motion || list.wrench.iter().flatten().any(|n| n == name) || QUATERNION_COLUMNS.contains(&name.as_str()) || name == GRIPPER_COLUMN
@@ -120,7 +121,7 @@ fn kept<'a>(table: &'a Table, used: &[String], list: &List, notes: &mut Vec<Stri
     });
     let kept = kept.collect();
     if !left_out.is_empty() {
-        notes.push(format!("{}: columns {} hold no or not only numbers and are left out", table.place, left_out.join(", ")));
+        notes.add(&table.place, format!("columns {} hold no or not only numbers and are left out", left_out.join(", ")));
     }
     kept
 }

@@ -31,6 +31,12 @@ impl Trajectory {
         for (i, name) in self.columns().iter().enumerate() {
             if name.is_empty() {
                 faults.push(Fault::new(place, format!("column {} without a name", i + 1), "a name such as x_m"));
+            } else if name.trim() != name || name.contains(char::is_control) {
+                faults.push(Fault::new(
+                    place,
+                    format!("the name {name:?}"),
+                    "a name without blanks around it and without control characters",
+                ));
             } else if self.columns()[..i].contains(name) {
                 faults.push(Fault::new(place, "the same name twice", "every column name once").in_column(name));
             }

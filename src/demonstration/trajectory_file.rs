@@ -4,6 +4,7 @@ use std::fs::File;
 use std::path::Path;
 
 use super::list::List;
+use super::notes::Notes;
 use super::table::{Layout, Table, is_parquet, is_samples};
 use super::{DemonstrationError, Fault, Trajectory, csv, parquet, samples};
 
@@ -35,7 +36,7 @@ impl FileFormat {
 pub fn read_trajectory(path: &Path) -> Result<Trajectory, DemonstrationError> {
     let place = file_name(path)?;
     let table = Table::read(path, &place, Layout::default())?;
-    let mut pieces = samples::pieces(table, &List::default(), &mut Vec::new()).map_err(DemonstrationError::Invalid)?;
+    let mut pieces = samples::pieces(table, &List::default(), &mut Notes::default()).map_err(DemonstrationError::Invalid)?;
     match (pieces.pop(), pieces.len()) {
         (Some(piece), 0) => Ok(piece.trajectory),
         (_, others) => invalid(&place, format!("{} repetitions", others + 1), "one: read the file as a dataset"),

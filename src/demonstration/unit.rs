@@ -34,6 +34,6 @@ const UNITS: [(&str, &str, f64); 26] = [
 pub(super) fn factor(unit: &str, column: &str) -> Result<f64, String> {
     let known = || UNITS.iter().map(|(name, ..)| *name).collect::<Vec<_>>().join(", ");
     let (_, quantity, factor) = UNITS.iter().find(|(name, ..)| *name == unit).ok_or_else(|| format!("one of {}", known()))?;
-    let target = if *quantity == "" { "" } else { column.rsplit_once('_').map_or("", |(_, unit)| unit) };
+    let target = if quantity.is_empty() { "" } else { column.rsplit_once('_').map_or("", |(_, unit)| unit) };
     if target == *quantity { Ok(*factor) } else { Err(format!("a column whose name ends with _{quantity}, in which {unit} is counted")) }
 }

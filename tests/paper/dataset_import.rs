@@ -47,7 +47,7 @@ fn a_folder_of_tables_needs_no_list() {
     let import = import(&[("b.csv", text), ("a.csv", text), ("readme.md", "not data")]);
     assert_eq!(names(&import), ["a", "b"]);
     assert_eq!((import.dataset.motion.join(","), import.dataset.wrench.join(",")), ("x_m".to_owned(), "fx_n,tz_nm".to_owned()));
-    for part in ["columns note", "changes sign 1 times", "motion columns: x_m"] {
+    for part in ["columns note", "changes sign 1 times", "motion [x_m]"] {
         assert!(import.notes.iter().any(|note| note.contains(part)), "nothing about {part}: {:#?}", import.notes);
     }
     assert_fault(&faults(&[("readme.md", "not data")]), &["0 CSV or Parquet files"]);
@@ -107,7 +107,7 @@ fn other_names_units_and_quaternion_orders_are_brought_to_si() {
     let orientations = trajectory.orientations().unwrap();
     assert_eq!((orientations[0].w, orientations[1].j), (1.0, 1.0));
     assert_eq!(import.dataset.motion, ["q1_rad", "x_m", "y_m"]);
-    assert!(import.notes.iter().any(|note| note.contains("x_m is column `px` in mm, times 0.001")), "{:#?}", import.notes);
+    assert!(import.notes.iter().any(|note| note.contains("x_m from `px` in mm (times 0.001)")), "{:#?}", import.notes);
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn parameters_follow_start_and_goal() {
 fn both_formats_keep_every_bit() {
     let folder = tempfile::tempdir().unwrap();
     let extreme = [f64::MIN_POSITIVE, -0.0, 5e-324, f64::MAX, 0.1 + 0.2, -1.0 / 3.0];
-    let columns = ["x_m", "a,b"].map(str::to_owned).to_vec();
+    let columns = ["x_m", "a,b; \"c\""].map(str::to_owned).to_vec();
     let trajectory = Trajectory::new(vec![-1.0, 0.1, 1e300], columns, DMatrix::from_row_slice(3, 2, &extreme)).unwrap();
     for name in ["a.csv", "a.parquet"] {
         let path = folder.path().join(name);
@@ -217,6 +217,7 @@ fn both_formats_keep_every_bit() {
         assert_eq!((back.columns(), bits(&back)), (trajectory.columns(), bits(&trajectory)), "{name}");
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "nothing is left beside");
+    assert!(Trajectory::new(vec![0.0, 1.0], vec!["x\ny".to_owned()], DMatrix::zeros(2, 1)).is_err(), "no file could hold this name");
     assert!(write_trajectory(&folder.path().join("a.xls"), &trajectory).is_err());
     assert!(write_trajectory(Path::new("/nowhere/a.csv"), &trajectory).is_err());
     let dataset = PickAndPlace { duration_s: 2.0, ..Default::default() }.dataset(3);
@@ -231,4 +232,27 @@ fn the_summary_tells_rates_gaps_and_ranges() {
     assert_eq!((summary.samples, summary.duration_s, summary.rate_hz, summary.largest_gap_s), (3, 2.5, [0.5, 2.0], 2.0));
     let x = &summary.columns[0];
     assert_eq!((x.start, x.end, x.min, x.max), (3.0, 2.0, -1.0, 3.0));
+}
+
+#[test]
+fn the_example_of_the_documentation_is_read() {
+    let docs = include_str!("../../src/demonstration/mod.rs");
+    let lines = docs.lines().skip_while(|line| *line != "//! ```toml").skip(1).take_while(|line| *line != "//! ```");
+    let list: String = lines.map(|line| line.trim_start_matches("//!").trim().to_owned() + "\n").collect();
+    let text = "stamp;px;py;z;qw;q1;q2;q3;fx_n;fy_n;fz_n;mass_kg;demo_id\n0;1;2;3;1;0;0;0;5;6;7;0.5;3\n100;1;2;4;1;0;0;0;5;6;7;0.5;3\n";
+    let import = import(&[("dataset.toml", &list), ("height_17_a.csv", text)]);
+    let demonstration = &import.dataset.demonstrations[0];
+    assert_eq!((demonstration.trajectory.times_s()[1], column(&import, 0, "x_m")[0], column(&import, 0, "z_m")[1]), (0.1, 1e-3, 4.0));
+    assert_eq!(
+        (&demonstration.theta_m[0], &demonstration.theta_f[0]),
+        (&("block_height_m".to_owned(), 0.17), &("mass_kg".to_owned(), 0.5))
+    );
+}
+
+#[test]
+fn notes_that_hold_for_several_files_are_said_once() {
+    let text = "t,x_m\n0,1\n1,2\n";
+    let import = import(&[("a.csv", text), ("b.csv", text), ("c.csv", text)]);
+    assert_eq!(import.notes[0], "a.csv and 2 more: column t is the time, taken as 1 s");
+    assert_eq!(import.notes.len(), 3, "{:#?}", import.notes);
 }
