@@ -25,7 +25,7 @@ pub struct Dataset {
     pub motion: Vec<String>,
     /// Columns of the force model; may be empty.
     pub wrench: Vec<String>,
-    /// Where `theta_m` comes from.
+    /// Where `theta_m` comes from; kept on disk, so that the parameters follow the data.
     pub parameter_source: ParameterSource,
     /// The demonstrations, at least one.
     pub demonstrations: Vec<Demonstration>,
@@ -69,9 +69,13 @@ impl Dataset {
                 if list[..i].contains(name) {
                     faults.push(Fault::new(key, format!("{name} twice"), "every column once"));
                 }
-                if let Some(unit) = ["_mm", "_cm", "_deg", "_ms"].iter().find(|unit| name.ends_with(**unit)) {
+                if let Some(unit) = ["_mm", "_cm", "_km", "_deg", "_ms", "_us", "_kn", "_nmm"].iter().find(|unit| name.ends_with(**unit)) {
                     let found = format!("{name}, in {}", &unit[1..]);
-                    faults.push(Fault::new(key, found, "SI units: _m, _rad, _n, _nm, _s"));
+                    faults.push(Fault::new(
+                        key,
+                        found,
+                        "SI units: _m, _rad, _n, _nm, _s (dataset.toml: [columns] x_m = { from = \"x_mm\", unit = \"mm\" })",
+                    ));
                 }
             }
         }
@@ -82,7 +86,7 @@ impl Dataset {
         let mut faults = Vec::new();
         for (key, list) in [("motion", &self.motion), ("wrench", &self.wrench)] {
             for name in list.iter().filter(|name| demonstration.trajectory.column_index(name).is_none()) {
-                let found = format!("no such column, though {key} lists it");
+                let found = format!("no such column, though it belongs to {key}");
                 let expected = format!("one of {}", demonstration.trajectory.columns().join(", "));
                 faults.push(Fault::new(&demonstration.name, found, expected).in_column(name));
             }

@@ -1,152 +1,193 @@
-//! A dataset from its folder: `dataset.toml` and one CSV file per demonstration.
+//! A dataset from whatever a person has: a folder with or without a list, or one file.
 
-use std::path::{Component, Path};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Component, Path, PathBuf};
 
-use toml::{Table, Value};
+use super::list::{LIST, List};
+use super::list_entries::Entry;
+use super::notes::{Notes, about};
+use super::samples::{self, Piece};
+use super::table::{Table, is_samples};
+use super::{Dataset, Demonstration, DemonstrationError, Fault, ParameterSource, Parameters, roles};
 
-use super::{Dataset, Demonstration, DemonstrationError, Fault, ParameterSource, Parameters, csv};
+/// The most files and demonstrations of one dataset, and the most faults that are collected.
+const MOST: usize = 10_000;
 
-const LIST: &str = "dataset.toml";
-const SCHEMA_VERSION: i64 = 1;
+/// A dataset, and in words what was done to get it: repetitions found, units converted, columns left out, gaps, flips of sign.
+#[derive(Debug, Clone)]
+pub struct Import {
+    /// The demonstrations.
+    pub dataset: Dataset,
+    /// One sentence each, in the order of the files; empty when everything was taken as it stands.
+    pub notes: Vec<String>,
+}
 
 impl Dataset {
-    /// Reads the dataset in a folder.
+    /// Reads a dataset: a folder with `dataset.toml`, a `.toml` file of that format, a folder of CSV and Parquet files, or one such file.
     ///
     /// # Errors
-    /// When `dataset.toml` cannot be opened; otherwise every fault of the list and of all demonstrations at once.
-    pub fn read(folder: &Path) -> Result<Self, DemonstrationError> {
-        let path = folder.join(LIST);
-        let text = std::fs::read_to_string(&path).map_err(DemonstrationError::io(&path))?;
-        let table: Table = match text.strip_prefix('\u{feff}').unwrap_or(&text).parse() {
-            Ok(table) => table,
-            Err(error) => return Err(DemonstrationError::Invalid(vec![Fault::new(LIST, error.to_string().trim_end(), "TOML")])),
+    /// When the path cannot be opened; otherwise every fault of the list and of all demonstrations at once.
+    pub fn read(path: &Path) -> Result<Self, DemonstrationError> {
+        Ok(Self::import(path)?.dataset)
+    }
+
+    /// As [`Self::read`], with notes on what was done to the data.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn import(path: &Path) -> Result<Import, DemonstrationError> {
+        let kind = std::fs::metadata(path).map_err(DemonstrationError::io(path))?;
+        let inside = path.join(LIST);
+        let parent = path.parent().unwrap_or(Path::new("")).to_owned();
+        let (folder, mut list) = if kind.is_dir() {
+            let list = if inside.exists() { List::read(&inside)? } else { List::default() };
+            (path.to_owned(), list)
+        } else if path.extension().is_some_and(|extension| extension == "toml") {
+            (parent, List::read(path)?)
+        } else if let Some(file) = path.file_name().and_then(|name| name.to_str()).filter(|_| is_samples(path)) {
+            (parent, List { file: Some(file.to_owned()), ..List::default() })
+        } else {
+            let found = format!("`{}`", path.display());
+            return Err(DemonstrationError::Invalid(vec![Fault::new(
+                "dataset",
+                found,
+                "a folder, or a .toml, .csv, .tsv, .txt or .parquet file",
+            )]));
         };
-        let mut list = List { faults: Vec::new() };
-        list.check_version(&table);
-        list.check_keys(&table, "", &["schema_version", "motion", "wrench", "demonstration"]);
-        let motion = list.names(&table, "motion");
-        let wrench = list.names(&table, "wrench");
-        let demonstrations = list.demonstrations(&table, folder);
-        let dataset = Self { motion, wrench, parameter_source: ParameterSource::Given, demonstrations };
-        let mut faults = list.faults;
-        if faults.is_empty()
-            && let Err(DemonstrationError::Invalid(more)) = dataset.check()
-        {
-            faults = more;
-        }
-        if faults.is_empty() { Ok(dataset) } else { Err(DemonstrationError::Invalid(faults)) }
+        let faults = std::mem::take(&mut list.faults);
+        Reader { folder, list, faults, notes: Notes::default(), files: BTreeMap::new() }.dataset()
     }
 }
 
-/// Reads keys of `dataset.toml` and notes what is wrong with them.
-struct List {
+/// Collects demonstrations and faults; every file is read once.
+struct Reader {
+    folder: PathBuf,
+    list: List,
     faults: Vec<Fault>,
+    notes: Notes,
+    files: BTreeMap<String, Vec<Piece>>,
 }
 
-impl List {
+impl Reader {
+    fn dataset(mut self) -> Result<Import, DemonstrationError> {
+        let entries = match std::mem::take(&mut self.list.entries) {
+            entries if entries.is_empty() => self.every_file()?,
+            entries => entries,
+        };
+        let mut demonstrations = Vec::new();
+        for entry in &entries {
+            demonstrations.extend(self.demonstrations(entry));
+            if demonstrations.len() > MOST {
+                self.fault("demonstration", format!("more than {MOST} demonstrations"), format!("at most {MOST}"));
+                break;
+            }
+        }
+        let mut names = BTreeSet::new();
+        for demonstration in &demonstrations {
+            if !names.insert(demonstration.name.as_str()) {
+                let expected = "every file and sequence once, and names that differ in more than the extension";
+                self.faults.push(Fault::new(LIST, format!("{} twice", demonstration.name), expected));
+            }
+        }
+        let (motion, wrench) = roles::columns(&self.list, &demonstrations, &mut self.notes, &mut self.faults);
+        let dataset = Dataset { motion, wrench, parameter_source: ParameterSource::Given, demonstrations };
+        let dataset = dataset.with_parameter_source(self.list.source);
+        if self.faults.is_empty()
+            && let Err(DemonstrationError::Invalid(more)) = dataset.check()
+        {
+            self.faults = more;
+        }
+        if self.faults.is_empty() {
+            about(&dataset, &mut self.notes);
+            Ok(Import { dataset, notes: self.notes.in_words() })
+        } else {
+            self.faults.truncate(MOST);
+            Err(DemonstrationError::Invalid(self.faults))
+        }
+    }
+
+    /// One entry per file, sorted by name.
+    fn every_file(&mut self) -> Result<Vec<Entry>, DemonstrationError> {
+        let entry = |name: String| Entry { key: "file".to_owned(), file: Some(name), ..Entry::default() };
+        if let Some(name) = &self.list.file {
+            return Ok(vec![entry(name.clone())]);
+        }
+        // The path of a list without a folder is that of the working directory.
+        let folder = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };
+        let mut names = Vec::new();
+        for file in std::fs::read_dir(folder).map_err(DemonstrationError::io(folder))? {
+            let file = file.map_err(DemonstrationError::io(folder))?.file_name();
+            names.extend(file.to_str().filter(|name| is_samples(Path::new(name)) && !name.starts_with('.')).map(str::to_owned));
+        }
+        names.sort();
+        if names.is_empty() || names.len() > MOST {
+            let found = format!("{} CSV or Parquet files in {}", names.len(), folder.display());
+            self.faults.push(Fault::new("dataset", found, "no demonstration: 1 to 10000 files, one for each or with a sequence column"));
+            names.clear();
+        }
+        Ok(names.into_iter().map(entry).collect())
+    }
+
+    fn demonstrations(&mut self, entry: &Entry) -> Vec<Demonstration> {
+        let Some(file) = entry.file.clone().or_else(|| self.list.file.clone()) else {
+            self.fault(&entry.key, "no file name", "file = \"NAME.csv\"");
+            return Vec::new();
+        };
+        let plain = Path::new(&file).components().all(|part| matches!(part, Component::Normal(_)));
+        if !plain || !is_samples(Path::new(&file)) {
+            self.fault(&entry.key, format!("file = \"{file}\""), "a .csv, .tsv, .txt or .parquet file inside the dataset's folder");
+            return Vec::new();
+        }
+        if !self.files.contains_key(&file) {
+            let pieces = self.pieces(&file);
+            self.files.insert(file.clone(), pieces);
+        }
+        let pieces = self.files.get(&file).map_or(&[][..], Vec::as_slice);
+        let asked = |piece: &&Piece| entry.sequence.is_none() || same_label(entry.sequence.as_deref(), piece.label.as_deref());
+        let stem = Path::new(&file).with_extension("").to_string_lossy().replace(['/', '\\'], "_");
+        let several = pieces.len() > 1;
+        let named = |(i, piece): (usize, &Piece)| {
+            let label = piece.label.clone().or(several.then(|| (i + 1).to_string()));
+            demonstration(&stem, label, piece, entry)
+        };
+        let taken: Vec<Demonstration> = pieces.iter().enumerate().filter(|(_, piece)| asked(piece)).map(named).collect();
+        if taken.is_empty() && !pieces.is_empty() {
+            let labels = pieces.iter().filter_map(|piece| piece.label.clone()).collect::<Vec<_>>().join(", ");
+            let found = format!("sequence {}, which {file} does not have", entry.sequence.as_deref().unwrap_or_default());
+            self.fault(&entry.key, found, format!("one of [{labels}]"));
+        }
+        taken
+    }
+
+    fn pieces(&mut self, file: &str) -> Vec<Piece> {
+        let read = Table::read(&self.folder.join(file), file, self.list.layout);
+        match read.map(|table| samples::pieces(table, &self.list, &mut self.notes)) {
+            Ok(Ok(pieces)) => return pieces,
+            Ok(Err(faults)) | Err(DemonstrationError::Invalid(faults)) => self.faults.extend(faults),
+            Err(error @ DemonstrationError::Io { .. }) => self.fault("file", error.to_string(), "a file that can be read"),
+        }
+        Vec::new()
+    }
+
     fn fault(&mut self, key: &str, found: impl Into<String>, expected: impl Into<String>) {
         self.faults.push(Fault::new(&format!("{LIST}, {key}"), found, expected));
     }
+}
 
-    fn check_version(&mut self, table: &Table) {
-        match table.get("schema_version") {
-            Some(Value::Integer(SCHEMA_VERSION)) => {}
-            Some(Value::Integer(newer)) if *newer > SCHEMA_VERSION => {
-                self.fault("schema_version", newer.to_string(), "1: this file needs a newer cpdmp");
-            }
-            Some(other) => self.fault("schema_version", other.to_string(), "1"),
-            None => self.fault("schema_version", "nothing", "schema_version = 1"),
-        }
+fn demonstration(stem: &str, label: Option<String>, piece: &Piece, entry: &Entry) -> Demonstration {
+    let plain = |c: char| if c.is_alphanumeric() || "_-.".contains(c) { c } else { '_' };
+    let label = label.map_or_else(String::new, |label| format!("_{label}"));
+    let theta = |own: &Parameters, given: &Parameters| if given.is_empty() { own.clone() } else { given.clone() };
+    Demonstration {
+        name: format!("{stem}{label}").chars().map(plain).collect(),
+        trajectory: piece.trajectory.clone(),
+        theta_m: theta(&piece.theta_m, &entry.theta_m),
+        theta_f: theta(&piece.theta_f, &entry.theta_f),
     }
+}
 
-    fn check_keys(&mut self, table: &Table, inside: &str, known: &[&str]) {
-        for key in table.keys().filter(|key| !known.contains(&key.as_str())) {
-            self.fault(&format!("{inside}{key}"), "an unknown key", format!("one of {}", known.join(", ")));
-        }
-    }
-
-    /// A list of column names; absent means empty.
-    fn names(&mut self, table: &Table, key: &str) -> Vec<String> {
-        let Some(value) = table.get(key) else { return Vec::new() };
-        let names = value.as_array().and_then(|list| list.iter().map(|name| name.as_str().map(str::to_owned)).collect());
-        names.unwrap_or_else(|| {
-            self.fault(key, value.to_string(), "a list of column names such as [\"x_m\", \"y_m\"]");
-            Vec::new()
-        })
-    }
-
-    fn demonstrations(&mut self, table: &Table, folder: &Path) -> Vec<Demonstration> {
-        let entries = match table.get("demonstration") {
-            Some(Value::Array(entries)) => entries.as_slice(),
-            None => &[],
-            Some(other) => {
-                self.fault("demonstration", other.type_str(), "tables, each headed [[demonstration]]");
-                &[]
-            }
-        };
-        let read = entries.iter().enumerate().map(|(i, entry)| self.demonstration(entry, i, folder));
-        let demonstrations: Vec<Demonstration> = read.collect::<Vec<_>>().into_iter().flatten().collect();
-        for (i, demonstration) in demonstrations.iter().enumerate() {
-            if demonstrations[..i].iter().any(|other| other.name == demonstration.name) {
-                self.fault("demonstration", format!("{} twice", demonstration.name), "every file once");
-            }
-        }
-        demonstrations
-    }
-
-    fn demonstration(&mut self, entry: &Value, index: usize, folder: &Path) -> Option<Demonstration> {
-        let key = format!("demonstration {}", index + 1);
-        let Some(table) = entry.as_table() else {
-            self.fault(&key, entry.type_str(), "a table with file, theta_m, theta_f");
-            return None;
-        };
-        self.check_keys(table, &format!("{key}, "), &["file", "theta_m", "theta_f"]);
-        let theta_m = self.parameters(table, &key, "theta_m");
-        let theta_f = self.parameters(table, &key, "theta_f");
-        let Some(file) = table.get("file").and_then(Value::as_str) else {
-            self.fault(&key, "no file name", "file = \"NAME.csv\"");
-            return None;
-        };
-        let plain = Path::new(file).components().all(|part| matches!(part, Component::Normal(_)));
-        if !plain || !file.ends_with(".csv") {
-            self.fault(&key, format!("file = \"{file}\""), "a .csv file inside the dataset's folder");
-            return None;
-        }
-        match csv::read(&folder.join(file), file) {
-            Ok(trajectory) => {
-                let name = file.trim_end_matches(".csv").to_owned();
-                Some(Demonstration { name, trajectory, theta_m, theta_f })
-            }
-            Err(DemonstrationError::Invalid(faults)) => {
-                self.faults.extend(faults);
-                None
-            }
-            Err(error @ DemonstrationError::Io { .. }) => {
-                self.fault(&key, error.to_string(), "a file that can be read");
-                None
-            }
-        }
-    }
-
-    /// Parameters sorted by name; absent means none.
-    fn parameters(&mut self, table: &Table, key: &str, name: &str) -> Parameters {
-        let entries = match table.get(name) {
-            Some(Value::Table(entries)) => entries,
-            None => return Vec::new(),
-            Some(other) => {
-                self.fault(&format!("{key}, {name}"), other.to_string(), "a table such as { block_height_m = 0.17 }");
-                return Vec::new();
-            }
-        };
-        let mut parameters = Vec::new();
-        for (parameter, value) in entries {
-            match value {
-                Value::Float(number) if number.is_finite() => parameters.push((parameter.clone(), *number)),
-                Value::Integer(number) => parameters.push((parameter.clone(), *number as f64)),
-                other => self.fault(&format!("{key}, {name}.{parameter}"), other.to_string(), "a finite number"),
-            }
-        }
-        parameters.sort_by(|a, b| a.0.cmp(&b.0));
-        parameters
-    }
+/// Whether two labels are the same text or the same number.
+fn same_label(asked: Option<&str>, label: Option<&str>) -> bool {
+    let number = |label: Option<&str>| label.and_then(|label| label.parse::<f64>().ok());
+    asked == label || number(asked).is_some_and(|asked| number(label) == Some(asked))
 }
