@@ -12,9 +12,9 @@ use super::generate_request::request;
 use super::learn::read_skill;
 use super::learning_args::Generate;
 use super::terminal::Terminal;
-use crate::demonstration::Trajectory;
+use crate::demonstration::{Trajectory, write_trajectory};
 use crate::learning::{ExecutionSettings, LearningError, Skill, generate as generated};
-use crate::report::{Outcome, Replaceable, prepare_file, replace_file};
+use crate::report::{Outcome, Replaceable, prepare_file};
 
 /// A movement and what was asked for.
 #[derive(Serialize)]
@@ -56,8 +56,10 @@ pub(super) fn generate(arguments: &Generate, global: &Global, terminal: &Termina
 
 fn moved(arguments: &Generate, out: Option<&Path>, format: Format) -> Result<(Movement, String), Failure> {
     if let Some(out) = out {
-        if out.extension().is_none_or(|extension| extension != "csv") {
-            return Err(Failure::new(Outcome::Usage, [format!("--out {}: expected a file that ends in .csv", out.display())]));
+        let known = out.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv") || e.eq_ignore_ascii_case("parquet"));
+        if !known {
+            let message = format!("--out {}: expected a file that ends in .csv or .parquet", out.display());
+            return Err(Failure::new(Outcome::Usage, [message]));
         }
         prepare_file(out, Replaceable::Samples)?;
     }
@@ -75,10 +77,10 @@ fn moved(arguments: &Generate, out: Option<&Path>, format: Format) -> Result<(Mo
         return Err(Failure::new(Outcome::CriteriaNotMet, [message]));
     }
     let trajectory = samples(&skill, &settings, arguments).map_err(failed)?;
-    let csv = trajectory.to_csv();
     if let Some(out) = out {
-        replace_file(out, csv.as_bytes(), Replaceable::Samples)?;
+        write_trajectory(out, &trajectory).map_err(|error| Failure::new(Outcome::OutputFailed, [error.to_string()]))?;
     }
+    let csv = if out.is_none() { trajectory.to_csv() } else { String::new() };
     let names = skill.motion.parameters.names.iter().cloned();
     let in_json = format == Format::Json && out.is_none();
     let row = |t: usize| std::iter::once(trajectory.times_s()[t]).chain(trajectory.values().row(t).iter().copied()).collect();

@@ -85,8 +85,8 @@ fn beginning(path: &Path) -> std::io::Result<String> {
 }
 
 fn dataset(path: &Path) -> Result<Content, Failure> {
-    let dataset = Dataset::read(path).map_err(|error| Failure::of_data(path, &error))?;
-    Ok(Content::Dataset { data: DataSection::of(&dataset) })
+    let import = Dataset::import(path).map_err(|error| Failure::of_data(path, &error))?;
+    Ok(Content::Dataset { data: DataSection::of(&import.dataset, import.notes) })
 }
 
 fn run(folder: &Path) -> Result<Content, Failure> {

@@ -6,7 +6,7 @@ use super::args::{Format, Global};
 use super::failure::Failure;
 use super::learning_args::{Learn, Theta};
 use super::terminal::Terminal;
-use crate::demonstration::{Dataset, ParameterSource};
+use crate::demonstration::{Dataset, Import, ParameterSource};
 use crate::learning::selection::{cross_validate, reproduction};
 use crate::learning::{self, LearningError, LearningSettings, Skill};
 use crate::report::{LearnReport, Outcome, Replaceable, prepare_file, replace_file};
@@ -38,7 +38,7 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
         prepare_file(out, Replaceable::Skill)?;
     }
     let path = &arguments.dataset;
-    let dataset = dataset(arguments).map_err(|error| Failure::of_learning(path, &error))?;
+    let (dataset, notes) = dataset(arguments).map_err(|error| Failure::of_learning(path, &error))?;
     let first = arguments.init.as_deref().map(read_skill).transpose()?;
     let seed = global.seed.unwrap_or(0);
     let of_data = |error: LearningError| Failure::of_learning(arguments.init.as_ref().unwrap_or(path), &error);
@@ -49,7 +49,7 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
     let learned = learned.map_err(of_data)?;
     let repeated = reproduction(&dataset, &learned.skill).map_err(of_data)?;
     let validated = arguments.cross_validate.then(|| cross_validate(&dataset, &settings, seed)).transpose().map_err(of_data)?;
-    let mut report = LearnReport::of((path.clone(), &dataset), &learned, &repeated, validated.as_ref(), seed).map_err(of_data)?;
+    let mut report = LearnReport::of((path.clone(), &dataset), notes, &learned, &repeated, validated.as_ref(), seed).map_err(of_data)?;
     if let Some(out) = &global.out {
         let text = learned.skill.to_json().map_err(of_data)?;
         replace_file(out, text.as_bytes(), Replaceable::Skill)?;
@@ -82,9 +82,9 @@ fn settings(arguments: &Learn, global: &Global) -> Result<(LearningSettings, Vec
     Ok(learning_settings(&LearningOptions { file: arguments.settings.clone(), set: global.set.clone(), flags })?)
 }
 
-/// The dataset, with the columns and parameters that the flags ask for.
-fn dataset(arguments: &Learn) -> Result<Dataset, LearningError> {
-    let mut dataset = Dataset::read(&arguments.dataset)?;
+/// The dataset, with the columns and parameters that the flags ask for, and what reading it did to the data.
+fn dataset(arguments: &Learn) -> Result<(Dataset, Vec<String>), LearningError> {
+    let Import { mut dataset, notes } = Dataset::import(&arguments.dataset)?;
     if !arguments.motion.is_empty() {
         dataset.motion.clone_from(&arguments.motion);
     }
@@ -99,5 +99,5 @@ fn dataset(arguments: &Learn) -> Result<Dataset, LearningError> {
     };
     let dataset = dataset.with_parameter_source(source);
     dataset.check()?;
-    Ok(dataset)
+    Ok((dataset, notes))
 }

@@ -16,6 +16,8 @@ pub struct DataSection {
     pub wrench: Vec<String>,
     /// Where the motion's parameters come from: `given`, `start`, `goal` or `start_relative_to_goal`.
     pub parameter_source: &'static str,
+    /// What reading did to the data: sequences, units, columns left out.
+    pub notes: Vec<String>,
     /// Every demonstration.
     pub demonstrations: Vec<DemonstrationRow>,
 }
@@ -55,12 +57,13 @@ pub struct ColumnRow {
 }
 
 impl DataSection {
-    /// Reads a dataset.
-    pub fn of(dataset: &Dataset) -> Self {
+    /// From a dataset, and the notes of the one who read it.
+    pub fn of(dataset: &Dataset, notes: Vec<String>) -> Self {
         Self {
             motion: dataset.motion.clone(),
             wrench: dataset.wrench.clone(),
             parameter_source: dataset.parameter_source.word(),
+            notes,
             demonstrations: dataset.demonstrations.iter().map(row).collect(),
         }
     }
@@ -72,8 +75,9 @@ impl DataSection {
             format!("  motion       {}", list(&self.motion)),
             format!("  force        {}", list(&self.wrench)),
             format!("  parameters   {}", self.parameters()),
-            String::new(),
         ];
+        lines.extend(self.notes.iter().map(|note| format!("  note         {note}")));
+        lines.push(String::new());
         let parameters: Vec<&String> = self.demonstrations.first().map_or_else(Vec::new, |one| one.theta_m.keys().collect());
         let mut heading: Vec<String> = ["demonstration", "samples", "duration s", "rate Hz", "gap s"].map(str::to_owned).to_vec();
         heading.extend(parameters.iter().map(|name| (*name).clone()));

@@ -53,6 +53,7 @@ impl LearnReport {
     /// When the skill's covariances are not usable.
     pub fn of(
         (path, dataset): (PathBuf, &Dataset),
+        notes: Vec<String>,
         learned: &Learned,
         reproduction: &[Reproduction],
         cross_validation: Option<&CrossValidation>,
@@ -68,7 +69,7 @@ impl LearnReport {
             dataset: path,
             written: None,
             seed,
-            data: DataSection::of(dataset),
+            data: DataSection::of(dataset, notes),
             skill: SkillSection::of(&learned.skill)?,
             motion_fit: report.motion.as_ref().map(FitSection::of),
             force_fit: report.force.as_ref().map(FitSection::of),
