@@ -1,6 +1,6 @@
 //! Demonstrations of one skill, with the parameters they were given under.
 
-use super::{DemonstrationError, Fault, Trajectory};
+use super::{DemonstrationError, Fault, ParameterSource, Trajectory};
 
 /// Named task parameters, e.g. `block_height_m = 0.17`, sorted by name.
 pub type Parameters = Vec<(String, f64)>;
@@ -25,6 +25,8 @@ pub struct Dataset {
     pub motion: Vec<String>,
     /// Columns of the force model; may be empty.
     pub wrench: Vec<String>,
+    /// Where `theta_m` comes from.
+    pub parameter_source: ParameterSource,
     /// The demonstrations, at least one.
     pub demonstrations: Vec<Demonstration>,
 }

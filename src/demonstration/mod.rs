@@ -7,6 +7,7 @@
 mod csv;
 mod dataset;
 mod error;
+mod parameter_source;
 mod read;
 mod resample;
 pub mod synthetic;
@@ -16,4 +17,5 @@ mod write;
 
 pub use dataset::{Dataset, Demonstration, Parameters};
 pub use error::{DemonstrationError, Fault};
+pub use parameter_source::ParameterSource;
 pub use trajectory::{GRIPPER_COLUMN, QUATERNION_COLUMNS, Trajectory};

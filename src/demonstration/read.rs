@@ -4,7 +4,7 @@ use std::path::{Component, Path};
 
 use toml::{Table, Value};
 
-use super::{Dataset, Demonstration, DemonstrationError, Fault, Parameters, csv};
+use super::{Dataset, Demonstration, DemonstrationError, Fault, ParameterSource, Parameters, csv};
 
 const LIST: &str = "dataset.toml";
 const SCHEMA_VERSION: i64 = 1;
@@ -27,7 +27,7 @@ impl Dataset {
         let motion = list.names(&table, "motion");
         let wrench = list.names(&table, "wrench");
         let demonstrations = list.demonstrations(&table, folder);
-        let dataset = Self { motion, wrench, demonstrations };
+        let dataset = Self { motion, wrench, parameter_source: ParameterSource::Given, demonstrations };
         let mut faults = list.faults;
         if faults.is_empty()
             && let Err(DemonstrationError::Invalid(more)) = dataset.check()

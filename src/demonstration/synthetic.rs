@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, Vector3};
 
-use super::{Dataset, Demonstration, Trajectory};
+use super::{Dataset, Demonstration, ParameterSource, Trajectory};
 use crate::math::{exp_map, minimum_jerk, smooth_step, standard_normal, stream};
 
 /// How the synthetic pick-and-place task is demonstrated.
@@ -96,7 +96,12 @@ impl PickAndPlace {
             }
         }
         let names = |list: [&str; 3]| list.map(str::to_owned).to_vec();
-        Dataset { motion: names(["x_m", "y_m", "z_m"]), wrench: names(["fx_n", "fy_n", "fz_n"]), demonstrations }
+        Dataset {
+            motion: names(["x_m", "y_m", "z_m"]),
+            wrench: names(["fx_n", "fy_n", "fz_n"]),
+            parameter_source: ParameterSource::Given,
+            demonstrations,
+        }
     }
 
     fn demonstration(&self, height: f64, offset: f64, seed: u64, index: usize) -> Demonstration {

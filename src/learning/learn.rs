@@ -4,12 +4,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
+use super::ends::{Ends, EndsReport, ends};
 use super::orientation::OrientationSample;
 use super::phmm::{Fit, Sequence, fit};
 use super::prepare::{Prepared, prepare};
 use super::{
-    GripperProfile, LearningError, LearningReport, LearningSettings, LinearMap, OrientationProfile, ParameterSpace, ShapingKind, Skill,
-    warnings,
+    GripperProfile, LearningError, LearningReport, LearningSettings, OrientationProfile, ParameterSpace, ShapingKind, Skill, warnings,
 };
 use crate::demonstration::Dataset;
 
@@ -33,7 +33,7 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
     let mut warnings = warnings::about_data(dataset, &prepared);
     let (motion, force) = rayon::join(|| motion_fit(dataset, &prepared, settings, seed), || force_fit(dataset, &prepared, settings, seed));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
-    let motion = motion_model(dataset, &prepared, settings, shaping)?;
+    let (motion, ends) = motion_model(dataset, &prepared, settings, shaping)?;
     let (force, force_fit) = force.map_or((None, None), |(model, fit)| (Some(model), Some(fit)));
     let orientation = orientation_profile(&prepared, settings);
     let gripper = gripper_profile(&prepared, &mut warnings);
@@ -44,14 +44,15 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
         ("program".to_owned(), format!("cpdmp {}", env!("CARGO_PKG_VERSION"))),
         ("seed".to_owned(), seed.to_string()),
     ];
-    let skill = Skill { motion, force, compliance, orientation, gripper, provenance, histories };
+    let skill =
+        Skill { parameter_source: dataset.parameter_source, motion, force, compliance, orientation, gripper, provenance, histories };
     skill.check()?;
     let noise = forcing_noise(&prepared);
     let fits = [("motion", motion_fit.as_ref()), ("force", force_fit.as_ref())];
     warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max()));
     let theta = prepared.iter().map(|p| &p.theta_m).sum::<DVector<f64>>() / prepared.len() as f64;
     let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), noise.iter().copied().collect(), warnings)?;
-    Ok(Learned { skill, report })
+    Ok(Learned { skill, report: LearningReport { ends, ..report } })
 }
 
 type MotionFit = (Shaping, Option<Fit>, Compliance);
@@ -98,26 +99,23 @@ fn motion_model(
     prepared: &[Prepared],
     settings: &LearningSettings,
     shaping: Shaping,
-) -> Result<MotionModel, LearningError> {
+) -> Result<(MotionModel, Option<EndsReport>), LearningError> {
     let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_m.clone()).collect();
-    let blind = settings.shaping == ShapingKind::Lwr;
-    let ends = |values: Vec<DVector<f64>>| -> Result<LinearMap, LearningError> {
-        let p = thetas[0].len();
-        let mean = values.iter().sum::<DVector<f64>>() / values.len() as f64;
-        if blind { Ok(LinearMap::constant(mean, p)) } else { LinearMap::fit(&thetas, &values) }
-    };
-    Ok(MotionModel {
+    let parameters = ParameterSpace::of(dataset.parameters_m(), &thetas);
+    let Ends { start, goal, report } = ends(dataset, prepared, &parameters, settings.shaping == ShapingKind::Lwr)?;
+    let model = MotionModel {
         stiffness: settings.stiffness,
         duration_s: prepared.iter().map(|p| p.duration_s).sum::<f64>() / prepared.len() as f64,
         alpha: settings.alpha,
         phase_input: settings.phase_input,
         gate_start: settings.gate_start,
         columns: dataset.motion.clone(),
-        start: ends(prepared.iter().map(|p| p.start.clone()).collect())?,
-        goal: ends(prepared.iter().map(|p| p.goal.clone()).collect())?,
-        parameters: ParameterSpace::of(dataset.parameters_m(), &thetas),
+        start,
+        goal,
+        parameters,
         shaping,
-    })
+    };
+    Ok((model, report))
 }
 
 fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Option<OrientationProfile> {

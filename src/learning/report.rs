@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::cpdmp::{Shaping, Statistic, compliance_windows, segments};
 use super::phmm::{Fit, FitStatus, StartReport};
-use super::{LearningError, Skill};
+use super::{EndsReport, LearningError, Skill};
 
 /// How one model was fitted.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +57,8 @@ pub struct LearningReport {
     pub windows_s: Vec<[f64; 2]>,
     /// Estimated variance of sensor noise in the forcing term, per motion column (squared unit of the column).
     pub forcing_noise: Vec<f64>,
+    /// How the end that the parameters leave open is predicted, when the parameters are the start or the goal themselves.
+    pub ends: Option<EndsReport>,
     /// What a person should know: rank, compliance of none or all, gaps.
     pub warnings: Vec<String>,
 }
@@ -99,6 +101,7 @@ impl LearningReport {
             threshold_m2: skill.compliance.threshold_m2,
             windows_s: windows.iter().map(|w| [w.start * duration, w.end * duration]).collect(),
             forcing_noise,
+            ends: None,
             warnings,
         })
     }

@@ -8,7 +8,7 @@ use super::replay::replay;
 use super::setup::Setup;
 use super::teaching::{Lesson, demonstration, settings_of, teach};
 use super::{DemonstrationSource, Experiment, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan};
-use crate::demonstration::{Dataset, Demonstration};
+use crate::demonstration::{Dataset, Demonstration, ParameterSource};
 use crate::learning::{self, Learned, Skill};
 
 /// Carries out `experiment`: teaches or reads the demonstrations, learns, executes.
@@ -122,6 +122,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     Ok(Dataset {
         motion: ["x_m", "y_m", "z_m"].map(String::from).to_vec(),
         wrench: ["fx_n", "fy_n", "fz_n"].map(String::from).to_vec(),
+        parameter_source: ParameterSource::Given,
         demonstrations: replays.into_iter().map(|(demonstration, _, _)| demonstration).collect(),
     })
 }

@@ -74,7 +74,7 @@ pub fn task_space_states(skill: &Skill, settings: &ExecutionSettings) -> Result<
     let dt = execution.duration_s() / STEPS as f64;
     let mut path = vec![execution.state().position.clone()];
     path.extend((0..STEPS).map(|_| execution.step(dt, &[], 1.0).position.clone()));
-    let mut shaping = skill.motion.shaping_at(&skill.motion.parameters.resolve(&settings.theta_m)?)?;
+    let mut shaping = skill.motion.shaping_at(&skill.request(settings)?.theta)?;
     let segments = segments(&mut shaping);
     let Some((gmr, input)) = shaping.mixture() else { return Ok(Vec::new()) };
     let state = |i: usize| {

@@ -17,7 +17,7 @@ use super::coupling::{Coupling, ExpectedWrench, wrench_columns};
 use super::{ExecutionSettings, SkillState};
 use crate::learning::cpdmp::{ComplianceWindow, ShapingFunction, compliance_windows, segments};
 use crate::learning::dmp::{CanonicalSystem, Motion, TransformationSystem};
-use crate::learning::{GripperProfile, LearningError, OrientationProfile, Skill};
+use crate::learning::{GripperProfile, LearningError, OrientationProfile, Request, Skill};
 
 /// A skill being executed.
 #[derive(Debug, Clone)]
@@ -46,10 +46,7 @@ impl SkillExecution {
     /// When parameters are missing or unknown, a start, goal or duration is not usable, or the coupling fits no column.
     pub fn new(skill: &Skill, settings: &ExecutionSettings) -> Result<Self, LearningError> {
         let motion = &skill.motion;
-        let theta = motion.parameters.resolve(&settings.theta_m)?;
-        let (start, goal) = skill.ends_at(&theta);
-        let start = chosen("start", &settings.start, start)?;
-        let goal = chosen("goal", &settings.goal, goal)?;
+        let Request { theta, start, goal } = skill.request(settings)?;
         let duration_s = settings.duration_s.unwrap_or(motion.duration_s);
         if !(duration_s > 0.0 && duration_s.is_finite()) {
             return Err(LearningError::Request(format!("the duration is {duration_s} s, but must be positive")));
@@ -175,16 +172,5 @@ impl SkillExecution {
         }
         state.orientation = self.orientation.as_ref().map(|o| o.orientation(u));
         state.gripper = self.gripper.as_ref().map(|g| g.opening(u));
-    }
-}
-
-fn chosen(what: &str, given: &Option<Vec<f64>>, learned: DVector<f64>) -> Result<DVector<f64>, LearningError> {
-    match given {
-        None => Ok(learned),
-        Some(values) if values.len() == learned.len() && values.iter().all(|x| x.is_finite()) => Ok(DVector::from_column_slice(values)),
-        Some(values) => {
-            let expected = learned.len();
-            Err(LearningError::Request(format!("the {what} is {values:?}, but must be {expected} finite numbers, one per motion column")))
-        }
     }
 }

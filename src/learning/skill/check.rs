@@ -1,6 +1,8 @@
 //! Whether the parts of a skill fit together and hold usable numbers.
 
 use super::Skill;
+use super::request::selection;
+use crate::demonstration::ParameterSource;
 use crate::learning::LearningError;
 use crate::learning::cpdmp::Shaping;
 
@@ -30,6 +32,9 @@ impl Skill {
             if !finite(map.mean.iter().chain(map.weights.iter())) {
                 return wrong(format!("motion.{name} holds a number that is not finite"));
             }
+        }
+        if self.parameter_source != ParameterSource::Given {
+            selection(self.parameter_source, &m.parameters.names, &m.columns)?;
         }
         self.check_shaping(d, p)?;
         self.check_profiles(p)?;

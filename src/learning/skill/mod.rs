@@ -2,6 +2,7 @@
 
 mod check;
 mod file;
+mod request;
 mod schema;
 mod schema_parts;
 
@@ -9,10 +10,16 @@ use nalgebra::DVector;
 
 use super::cpdmp::{Compliance, ComplianceWindow, ForceModel, MotionModel, compliance_windows, segments};
 use super::{GripperProfile, LearningError, OrientationProfile};
+use crate::demonstration::ParameterSource;
+
+pub use request::Request;
+pub(super) use request::selection;
 
 /// A learned compliant parametric dynamic movement primitive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skill {
+    /// Where `theta_m` comes from: given, or read off the start and goal that are asked for.
+    pub parameter_source: ParameterSource,
     /// The movement.
     pub motion: MotionModel,
     /// The wrench expected along it, when demonstrations had one.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Skill;
 use super::schema_parts::{ComplianceFile, GripperFile, LwrFile, MapFile, OrientationFile, PhmmFile};
+use crate::demonstration::ParameterSource;
 use crate::learning::cpdmp::{Compliance, ForceModel, MotionModel, Shaping};
 use crate::learning::dmp::PhaseInput;
 use crate::learning::{GripperProfile, LearningError, ParameterSpace};
@@ -21,6 +22,9 @@ pub(super) struct File {
     version: u64,
     #[serde(default)]
     provenance: BTreeMap<String, String>,
+    /// Where the motion's parameters come from: `given`, `start`, `goal` or `start_relative_to_goal`.
+    #[serde(default = "given")]
+    parameter_source: String,
     motion: MotionFile,
     #[serde(default)]
     force: Option<ForceFile>,
@@ -50,6 +54,10 @@ struct MotionFile {
     phmm: Option<PhmmFile>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lwr: Option<LwrFile>,
+}
+
+fn given() -> String {
+    ParameterSource::Given.word().to_owned()
 }
 
 fn default_gate_start() -> f64 {
@@ -99,10 +107,15 @@ impl File {
         let orientation = skill.orientation.as_ref().map(OrientationFile::of);
         let gripper = skill.gripper.as_ref().map(|g| GripperFile { openings: g.openings.clone() });
         let provenance = skill.provenance.iter().cloned().collect();
-        Self { format: FORMAT.to_owned(), version: VERSION, provenance, motion, force, compliance, orientation, gripper }
+        let parameter_source = skill.parameter_source.word().to_owned();
+        Self { format: FORMAT.to_owned(), version: VERSION, provenance, parameter_source, motion, force, compliance, orientation, gripper }
     }
 
     pub(super) fn into_skill(self) -> Result<Skill, LearningError> {
+        let Some(parameter_source) = ParameterSource::from_word(&self.parameter_source) else {
+            let known = ParameterSource::ALL.map(ParameterSource::word).join(", ");
+            return Err(LearningError::Skill(format!("parameter_source is {}, but must be one of {known}", self.parameter_source)));
+        };
         let m = self.motion;
         let p = m.parameters.len();
         let mut histories = Vec::new();
@@ -142,7 +155,7 @@ impl File {
         let orientation = self.orientation.map(OrientationFile::into_profile).transpose()?;
         let gripper = self.gripper.map(|g| GripperProfile { openings: g.openings });
         let provenance = self.provenance.into_iter().collect();
-        Ok(Skill { motion, force, compliance, orientation, gripper, provenance, histories })
+        Ok(Skill { parameter_source, motion, force, compliance, orientation, gripper, provenance, histories })
     }
 }
 

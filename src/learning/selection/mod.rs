@@ -1,0 +1,14 @@
+//! What demonstrations that were left out say: how well a skill predicts movements it has not seen, and which settings predict them best.
+//!
+//! Whole parameter values are left out, so that a movement is never predicted from another one of the same task. Errors compare positions
+//! at equal time fractions, in the unit of the columns.
+
+mod cross_validation;
+mod folds;
+mod movement_error;
+mod reproduction;
+
+pub use cross_validation::{CrossValidation, HeldOut, cross_validate};
+pub use folds::folds;
+pub use movement_error::{ErrorSize, MovementError};
+pub use reproduction::{Reproduction, reproduction};
