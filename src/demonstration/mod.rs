@@ -4,6 +4,7 @@
 //! `qx, qy, qz, qw` (scalar last, unit norm) and `gripper` (0 closed, 1 open). Everything is checked where it enters; every fault of a
 //! dataset is reported at once, with file, row and column.
 
+mod align;
 mod csv;
 mod dataset;
 mod error;
@@ -15,6 +16,7 @@ mod trajectory;
 mod trajectory_faults;
 mod write;
 
+pub use align::Aligned;
 pub use dataset::{Dataset, Demonstration, Parameters};
 pub use error::{DemonstrationError, Fault};
 pub use parameter_source::ParameterSource;

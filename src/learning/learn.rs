@@ -8,6 +8,7 @@ use super::ends::{Ends, EndsReport, ends};
 use super::orientation::OrientationSample;
 use super::phmm::{Fit, Sequence, fit};
 use super::prepare::{Prepared, prepare};
+use super::selection::{RidgeChoice, StatesChoice, choose_ridge, choose_states};
 use super::{
     GripperProfile, LearningError, LearningReport, LearningSettings, OrientationProfile, ParameterSpace, ShapingKind, Skill, warnings,
 };
@@ -29,7 +30,11 @@ pub struct Learned {
 pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Result<Learned, LearningError> {
     settings.check()?;
     dataset.check()?;
+    let aligned = settings.align.then(|| dataset.aligned()).transpose()?;
+    let (dataset, alignment_shifts_s) = aligned.as_ref().map_or((dataset, Vec::new()), |a| (&a.dataset, a.shifts_s.clone()));
     let prepared = prepare(dataset, settings)?;
+    let (settings, states_choice, ridge_choice) = chosen(&prepared, settings, seed)?;
+    let settings = &settings;
     let mut warnings = warnings::about_data(dataset, &prepared);
     let (motion, force) = rayon::join(|| motion_fit(dataset, &prepared, settings, seed), || force_fit(dataset, &prepared, settings, seed));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
@@ -52,7 +57,25 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
     warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max()));
     let theta = prepared.iter().map(|p| &p.theta_m).sum::<DVector<f64>>() / prepared.len() as f64;
     let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), noise.iter().copied().collect(), warnings)?;
-    Ok(Learned { skill, report: LearningReport { ends, ..report } })
+    Ok(Learned { skill, report: LearningReport { ends, alignment_shifts_s, states_choice, ridge_choice, ..report } })
+}
+
+/// The settings with everything filled in that they leave to the data: first the states, then the ridge for so many.
+fn chosen(
+    prepared: &[Prepared],
+    settings: &LearningSettings,
+    seed: u64,
+) -> Result<(LearningSettings, Option<StatesChoice>, Option<RidgeChoice>), LearningError> {
+    let mut settings = settings.clone();
+    if settings.shaping == ShapingKind::Lwr {
+        return Ok((settings, None, None));
+    }
+    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(&settings)).collect();
+    let states = settings.states_search.map(|search| choose_states(&sequences, &settings.motion, search, seed)).transpose()?;
+    settings.motion.states = states.as_ref().map_or(settings.motion.states, |choice| choice.states);
+    let ridge = settings.automatic_ridge.then(|| choose_ridge(&sequences, &settings.motion, seed)).transpose()?;
+    settings.motion.ridge = ridge.as_ref().map_or(settings.motion.ridge, |choice| choice.ridge);
+    Ok((settings, states, ridge))
 }
 
 type MotionFit = (Shaping, Option<Fit>, Compliance);
