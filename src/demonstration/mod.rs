@@ -44,6 +44,7 @@
 //! Parameters come from one place: `theta`, `theta_m` at the top, or `theta_m` of every demonstration. [`Dataset::write`] writes the
 //! first form or the last, and reads back bit for bit.
 
+mod align;
 mod column_map;
 mod csv;
 mod dataset;
@@ -68,6 +69,7 @@ mod trajectory_file;
 mod unit;
 mod write;
 
+pub use align::Aligned;
 pub use dataset::{Dataset, Demonstration, Parameters};
 pub use error::{DemonstrationError, Fault};
 pub use parameter_source::ParameterSource;

@@ -4,12 +4,14 @@ use nalgebra::{DMatrix, DVector};
 
 use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
+use super::ends::{Ends, EndsReport, ends};
 use super::orientation::OrientationSample;
 use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit, refine};
 use super::prepare::{Prepared, prepare};
+use super::selection::{RidgeChoice, StatesChoice, choose_ridge, choose_states};
 use super::{
-    FeatureMap, GripperProfile, LearningError, LearningReport, LearningSettings, LinearMap, OrientationProfile, ParameterSpace,
-    ShapingKind, Skill, warnings,
+    FeatureMap, GripperProfile, LearningError, LearningReport, LearningSettings, OrientationProfile, ParameterSpace, ShapingKind, Skill,
+    warnings,
 };
 use crate::demonstration::Dataset;
 
@@ -44,12 +46,19 @@ pub fn learn_from(dataset: &Dataset, settings: &LearningSettings, seed: u64, fir
 fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: Option<&Skill>) -> Result<Learned, LearningError> {
     settings.check()?;
     dataset.check()?;
+    let aligned = settings.align.then(|| dataset.aligned()).transpose()?;
+    let (dataset, alignment_shifts_s) = aligned.as_ref().map_or((dataset, Vec::new()), |a| (&a.dataset, a.shifts_s.clone()));
     let prepared = prepare(dataset, settings)?;
+    let (settings, states_choice, ridge_choice) = match first {
+        Some(_) => (settings.clone(), None, None),
+        None => chosen(&prepared, settings, seed)?,
+    };
+    let settings = &settings;
     let mut warnings = warnings::about_data(dataset, &prepared);
     let (motion, force) =
         rayon::join(|| motion_fit(dataset, &prepared, settings, seed, first), || force_fit(dataset, &prepared, settings, seed, first));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
-    let mut motion = motion_model(dataset, &prepared, settings, shaping, seed)?;
+    let (mut motion, ends) = motion_model(dataset, &prepared, settings, shaping, seed)?;
     motion.evidence = motion_fit.as_ref().map(|fit| fit.evidence.clone()).unwrap_or_default();
     let (force, force_fit) = force.map_or((None, None), |(model, fit)| (Some(model), Some(fit)));
     let orientation = orientation_profile(&prepared, settings);
@@ -69,7 +78,26 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max()));
     let theta = prepared.iter().map(|p| &p.theta_m).sum::<DVector<f64>>() / prepared.len() as f64;
     let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), noise.iter().copied().collect(), warnings)?;
-    Ok(Learned { skill, report })
+    Ok(Learned { skill, report: LearningReport { ends, alignment_shifts_s, states_choice, ridge_choice, ..report } })
+}
+
+/// The settings with everything filled in that they leave to the data: first the states, then the ridge for so many.
+fn chosen(
+    prepared: &[Prepared],
+    settings: &LearningSettings,
+    seed: u64,
+) -> Result<(LearningSettings, Option<StatesChoice>, Option<RidgeChoice>), LearningError> {
+    let mut settings = settings.clone();
+    if settings.shaping == ShapingKind::Lwr {
+        return Ok((settings, None, None));
+    }
+    let features = motion_features(prepared, &settings, seed);
+    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(&settings).seen_through(&features)).collect();
+    let states = settings.states_search.map(|search| choose_states(&sequences, &settings.motion, search, seed)).transpose()?;
+    settings.motion.states = states.as_ref().map_or(settings.motion.states, |choice| choice.states);
+    let ridge = settings.automatic_ridge.then(|| choose_ridge(&sequences, &settings.motion, seed)).transpose()?;
+    settings.motion.ridge = ridge.as_ref().map_or(settings.motion.ridge, |choice| choice.ridge);
+    Ok((settings, states, ridge))
 }
 
 type MotionFit = (Shaping, Option<Fit>, Compliance);
@@ -163,29 +191,25 @@ fn motion_model(
     settings: &LearningSettings,
     shaping: Shaping,
     seed: u64,
-) -> Result<MotionModel, LearningError> {
+) -> Result<(MotionModel, Option<EndsReport>), LearningError> {
     let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_m.clone()).collect();
-    let blind = settings.shaping == ShapingKind::Lwr;
     let features = motion_features(prepared, settings, seed);
-    let phis: Vec<DVector<f64>> = thetas.iter().map(|theta| features.at(theta)).collect();
-    let ends = |values: Vec<DVector<f64>>| -> Result<LinearMap, LearningError> {
-        let q = phis[0].len();
-        let mean = values.iter().sum::<DVector<f64>>() / values.len() as f64;
-        if blind { Ok(LinearMap::constant(mean, q)) } else { LinearMap::fit(&phis, &values) }
-    };
-    Ok(MotionModel {
+    let parameters = ParameterSpace::of(dataset.parameters_m(), &thetas).with_features(features);
+    let Ends { start, goal, report } = ends(dataset, prepared, &parameters, settings.shaping == ShapingKind::Lwr)?;
+    let model = MotionModel {
         stiffness: settings.stiffness,
         duration_s: prepared.iter().map(|p| p.duration_s).sum::<f64>() / prepared.len() as f64,
         alpha: settings.alpha,
         phase_input: settings.phase_input,
         gate_start: settings.gate_start,
         columns: dataset.motion.clone(),
-        start: ends(prepared.iter().map(|p| p.start.clone()).collect())?,
-        goal: ends(prepared.iter().map(|p| p.goal.clone()).collect())?,
-        parameters: ParameterSpace::of(dataset.parameters_m(), &thetas).with_features(features),
+        start,
+        goal,
+        parameters,
         shaping,
         evidence: Vec::new(),
-    })
+    };
+    Ok((model, report))
 }
 
 /// The features of `theta_m`; linear for the baseline, which is blind to parameters.

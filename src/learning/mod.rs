@@ -10,6 +10,7 @@
 
 pub mod cpdmp;
 pub mod dmp;
+mod ends;
 mod error;
 mod execution;
 mod features;
@@ -28,6 +29,7 @@ mod settings;
 mod skill;
 mod warnings;
 
+pub use ends::{EndRule, EndsReport};
 pub use error::{LearningError, SettingFault};
 pub use execution::{ExecutionSettings, SkillExecution, SkillState, TaskSpaceState, generate, task_space_states};
 pub use features::{FeatureMap, Features, Standard};
@@ -41,4 +43,5 @@ pub use parameters::ParameterSpace;
 pub use prepare::motion_sequences;
 pub use report::{FitReport, LearningReport, StateReport};
 pub use settings::{LearningSettings, ShapingKind};
+use skill::selection as parameter_selection;
 pub use skill::{Request, Skill};

@@ -6,6 +6,7 @@ mod learning_datasets;
 mod learning_execution;
 mod learning_laws;
 mod learning_pick_and_place;
+mod learning_selection;
 mod phmm_inference;
 mod phmm_laws;
 mod pick_and_place;

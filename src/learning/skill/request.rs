@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::Skill;
 use crate::demonstration::ParameterSource;
-use crate::learning::{ExecutionSettings, LearningError};
+use crate::learning::{ExecutionSettings, FeatureMap, LearningError};
 
 /// Parameters, start and goal of one execution.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,14 +60,30 @@ impl Skill {
         }
     }
 
-    /// `theta = S (x0 - g)` with the goal that the skill has for that very `theta`: `g = W S (x0 - g) + m`.
+    /// `theta = S (x0 - g(theta))`: the goal that the skill has for that very `theta`, by fixed-point iteration; linear features have a
+    /// closed form.
     fn relative_to_own_goal(&self, select: &DMatrix<f64>, x0: &DVector<f64>) -> Result<DVector<f64>, LearningError> {
-        let (d, map) = (x0.len(), &self.motion.goal);
-        let effect = &map.weights * select;
-        let right = &effect * x0 + &map.mean;
-        let goal = (DMatrix::identity(d, d) + effect).lu().solve(&right);
-        let goal = goal.ok_or_else(|| LearningError::Request("the skill has no goal for this start: give the goal too".to_owned()))?;
-        Ok(select * (x0 - goal))
+        /// Most iterations, and the relative change at which they end.
+        const MOST: usize = 200;
+        const SETTLED: f64 = 1e-12;
+        let (d, map, features) = (x0.len(), &self.motion.goal, &self.motion.parameters.features);
+        let no_goal = || LearningError::Request("the skill has no goal for this start: give the goal too".to_owned());
+        if *features == FeatureMap::Linear {
+            let effect = &map.weights * select;
+            let right = &effect * x0 + &map.mean;
+            let goal = (DMatrix::identity(d, d) + effect).lu().solve(&right).ok_or_else(no_goal)?;
+            return Ok(select * (x0 - goal));
+        }
+        let mut theta = select * (x0 - &map.mean);
+        for _ in 0..MOST {
+            let next = select * (x0 - map.at(&features.at(&theta)));
+            let change = (&next - &theta).norm();
+            theta = next;
+            if change <= SETTLED * theta.norm().max(1.0) {
+                return Ok(theta);
+            }
+        }
+        Err(no_goal())
     }
 
     fn nothing_to_read(&self, source: ParameterSource) -> LearningError {
