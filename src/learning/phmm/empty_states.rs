@@ -94,8 +94,8 @@ fn in_a_row(model: &mut Phmm, counts: &[f64], sequences: usize) {
     let n = model.states();
     model.initial = DVector::from_fn(n, |i, _| if i == 0 { 1.0 } else { 0.0 });
     model.transition = DMatrix::zeros(n, n);
-    for i in 0..n {
-        let leave = if i + 1 == n { 0.0 } else { (sequences as f64 / counts[i].max(1.0)).min(0.5) };
+    for (i, count) in counts.iter().enumerate() {
+        let leave = if i + 1 == n { 0.0 } else { (sequences as f64 / count.max(1.0)).min(0.5) };
         model.transition[(i, i)] = 1.0 - leave;
         if i + 1 < n {
             model.transition[(i, i + 1)] = leave;
