@@ -4,6 +4,7 @@
 //! `qx, qy, qz, qw` (scalar last, unit norm) and `gripper` (0 closed, 1 open). Everything is checked where it enters; every fault of a
 //! dataset is reported at once, with file, row and column.
 
+mod align;
 mod column_map;
 mod csv;
 mod dataset;
@@ -28,6 +29,7 @@ mod trajectory_file;
 mod unit;
 mod write;
 
+pub use align::Aligned;
 pub use dataset::{Dataset, Demonstration, Parameters};
 pub use error::{DemonstrationError, Fault};
 pub use parameter_source::ParameterSource;

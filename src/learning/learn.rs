@@ -4,12 +4,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
+use super::ends::{Ends, EndsReport, ends};
 use super::orientation::OrientationSample;
 use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit, refine};
 use super::prepare::{Prepared, prepare};
+use super::selection::{RidgeChoice, StatesChoice, choose_ridge, choose_states};
 use super::{
-    GripperProfile, LearningError, LearningReport, LearningSettings, LinearMap, OrientationProfile, ParameterSpace, ShapingKind, Skill,
-    warnings,
+    GripperProfile, LearningError, LearningReport, LearningSettings, OrientationProfile, ParameterSpace, ShapingKind, Skill, warnings,
 };
 use crate::demonstration::Dataset;
 
@@ -44,12 +45,16 @@ pub fn learn_from(dataset: &Dataset, settings: &LearningSettings, seed: u64, fir
 fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: Option<&Skill>) -> Result<Learned, LearningError> {
     settings.check()?;
     dataset.check()?;
+    let aligned = settings.align.then(|| dataset.aligned()).transpose()?;
+    let (dataset, alignment_shifts_s) = aligned.as_ref().map_or((dataset, Vec::new()), |a| (&a.dataset, a.shifts_s.clone()));
     let prepared = prepare(dataset, settings)?;
+    let (settings, states_choice, ridge_choice) = chosen(&prepared, settings, seed)?;
+    let settings = &settings;
     let mut warnings = warnings::about_data(dataset, &prepared);
     let (motion, force) =
         rayon::join(|| motion_fit(dataset, &prepared, settings, seed, first), || force_fit(dataset, &prepared, settings, seed, first));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
-    let motion = motion_model(dataset, &prepared, settings, shaping)?;
+    let (motion, ends) = motion_model(dataset, &prepared, settings, shaping)?;
     let (force, force_fit) = force.map_or((None, None), |(model, fit)| (Some(model), Some(fit)));
     let orientation = orientation_profile(&prepared, settings);
     let gripper = gripper_profile(&prepared, &mut warnings);
@@ -68,7 +73,25 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max()));
     let theta = prepared.iter().map(|p| &p.theta_m).sum::<DVector<f64>>() / prepared.len() as f64;
     let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), noise.iter().copied().collect(), warnings)?;
-    Ok(Learned { skill, report })
+    Ok(Learned { skill, report: LearningReport { ends, alignment_shifts_s, states_choice, ridge_choice, ..report } })
+}
+
+/// The settings with everything filled in that they leave to the data: first the states, then the ridge for so many.
+fn chosen(
+    prepared: &[Prepared],
+    settings: &LearningSettings,
+    seed: u64,
+) -> Result<(LearningSettings, Option<StatesChoice>, Option<RidgeChoice>), LearningError> {
+    let mut settings = settings.clone();
+    if settings.shaping == ShapingKind::Lwr {
+        return Ok((settings, None, None));
+    }
+    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(&settings)).collect();
+    let states = settings.states_search.map(|search| choose_states(&sequences, &settings.motion, search, seed)).transpose()?;
+    settings.motion.states = states.as_ref().map_or(settings.motion.states, |choice| choice.states);
+    let ridge = settings.automatic_ridge.then(|| choose_ridge(&sequences, &settings.motion, seed)).transpose()?;
+    settings.motion.ridge = ridge.as_ref().map_or(settings.motion.ridge, |choice| choice.ridge);
+    Ok((settings, states, ridge))
 }
 
 type MotionFit = (Shaping, Option<Fit>, Compliance);
@@ -158,26 +181,23 @@ fn motion_model(
     prepared: &[Prepared],
     settings: &LearningSettings,
     shaping: Shaping,
-) -> Result<MotionModel, LearningError> {
+) -> Result<(MotionModel, Option<EndsReport>), LearningError> {
     let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_m.clone()).collect();
-    let blind = settings.shaping == ShapingKind::Lwr;
-    let ends = |values: Vec<DVector<f64>>| -> Result<LinearMap, LearningError> {
-        let p = thetas[0].len();
-        let mean = values.iter().sum::<DVector<f64>>() / values.len() as f64;
-        if blind { Ok(LinearMap::constant(mean, p)) } else { LinearMap::fit(&thetas, &values) }
-    };
-    Ok(MotionModel {
+    let parameters = ParameterSpace::of(dataset.parameters_m(), &thetas);
+    let Ends { start, goal, report } = ends(dataset, prepared, &parameters, settings.shaping == ShapingKind::Lwr)?;
+    let model = MotionModel {
         stiffness: settings.stiffness,
         duration_s: prepared.iter().map(|p| p.duration_s).sum::<f64>() / prepared.len() as f64,
         alpha: settings.alpha,
         phase_input: settings.phase_input,
         gate_start: settings.gate_start,
         columns: dataset.motion.clone(),
-        start: ends(prepared.iter().map(|p| p.start.clone()).collect())?,
-        goal: ends(prepared.iter().map(|p| p.goal.clone()).collect())?,
-        parameters: ParameterSpace::of(dataset.parameters_m(), &thetas),
+        start,
+        goal,
+        parameters,
         shaping,
-    })
+    };
+    Ok((model, report))
 }
 
 fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Option<OrientationProfile> {

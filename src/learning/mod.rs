@@ -10,6 +10,7 @@
 
 pub mod cpdmp;
 pub mod dmp;
+mod ends;
 mod error;
 mod execution;
 mod gmr;
@@ -26,6 +27,7 @@ mod settings;
 mod skill;
 mod warnings;
 
+pub use ends::{EndRule, EndsReport};
 pub use error::{LearningError, SettingFault};
 pub use execution::{ExecutionSettings, SkillExecution, SkillState, TaskSpaceState, generate, task_space_states};
 pub use gmr::Gmr;
@@ -36,4 +38,5 @@ pub use orientation::OrientationProfile;
 pub use parameters::ParameterSpace;
 pub use report::{FitReport, LearningReport, StateReport};
 pub use settings::{LearningSettings, ShapingKind};
+use skill::selection as parameter_selection;
 pub use skill::{Request, Skill};

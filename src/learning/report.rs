@@ -4,7 +4,8 @@ use nalgebra::DVector;
 
 use super::cpdmp::{Shaping, Statistic, compliance_windows, segments};
 use super::phmm::{Fit, FitStatus, StartReport};
-use super::{LearningError, Skill};
+use super::selection::{RidgeChoice, StatesChoice};
+use super::{EndsReport, LearningError, Skill};
 
 /// How one model was fitted.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +58,14 @@ pub struct LearningReport {
     pub windows_s: Vec<[f64; 2]>,
     /// Estimated variance of sensor noise in the forcing term, per motion column (squared unit of the column).
     pub forcing_noise: Vec<f64>,
+    /// The largest shift in time of each demonstration by the alignment (s); empty without one.
+    pub alignment_shifts_s: Vec<f64>,
+    /// How the number of states was chosen, when it was.
+    pub states_choice: Option<StatesChoice>,
+    /// How the ridge was chosen, when it was.
+    pub ridge_choice: Option<RidgeChoice>,
+    /// How the end that the parameters leave open is predicted, when the parameters are the start or the goal themselves.
+    pub ends: Option<EndsReport>,
     /// What a person should know: rank, compliance of none or all, gaps.
     pub warnings: Vec<String>,
 }
@@ -99,6 +108,10 @@ impl LearningReport {
             threshold_m2: skill.compliance.threshold_m2,
             windows_s: windows.iter().map(|w| [w.start * duration, w.end * duration]).collect(),
             forcing_noise,
+            alignment_shifts_s: Vec::new(),
+            states_choice: None,
+            ridge_choice: None,
+            ends: None,
             warnings,
         })
     }

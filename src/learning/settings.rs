@@ -3,6 +3,7 @@
 use super::cpdmp::ComplianceSettings;
 use super::dmp::{DEFAULT_ALPHA, PhaseInput};
 use super::phmm::PhmmSettings;
+use super::selection::StatesSearch;
 use super::{LearningError, SettingFault};
 
 /// What stands for the forcing term.
@@ -45,6 +46,12 @@ pub struct LearningSettings {
     pub compliance: ComplianceSettings,
     /// Basis functions of the orientation over the time fraction (2 to 500). Default 40.
     pub orientation_basis: usize,
+    /// Whether demonstrations are brought to one timing before they are learned from, by one warp each for all columns. Default no.
+    pub align: bool,
+    /// Whether the motion model's ridge is chosen by leaving demonstrations out, instead of taken from `motion.ridge`. Default no.
+    pub automatic_ridge: bool,
+    /// Whether, and how, the motion model's number of states is chosen, instead of taken from `motion.states`. Default no.
+    pub states_search: Option<StatesSearch>,
 }
 
 impl Default for LearningSettings {
@@ -63,6 +70,9 @@ impl Default for LearningSettings {
             lwr_basis: 100,
             compliance: ComplianceSettings::default(),
             orientation_basis: 40,
+            align: false,
+            automatic_ridge: false,
+            states_search: None,
         }
     }
 }
@@ -85,6 +95,10 @@ impl LearningSettings {
         check("gate_start", self.gate_start, 0.5, 0.999, "of the duration");
         check("lwr_basis", self.lwr_basis as f64, 2.0, 1000.0, "functions");
         check("orientation_basis", self.orientation_basis as f64, 2.0, 500.0, "functions");
+        if let Some(StatesSearch { min, max, .. }) = self.states_search {
+            check("motion.states_min", min as f64, 1.0, 200.0, "");
+            check("motion.states_max", max as f64, min as f64, 200.0, "(at least states_min)");
+        }
         faults.extend(self.motion.faults("motion"));
         faults.extend(self.force.faults("force"));
         faults.extend(self.compliance.faults("compliance"));

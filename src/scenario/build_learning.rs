@@ -22,6 +22,9 @@ pub(super) fn learning(table: &Node) -> LearningSettings {
         lwr_basis: table.size("lwr_basis"),
         compliance: compliance(&table.section("compliance")),
         orientation_basis: table.size("orientation_basis"),
+        align: false,
+        automatic_ridge: false,
+        states_search: None,
     }
 }
 

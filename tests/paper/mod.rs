@@ -6,4 +6,5 @@ mod learning_datasets;
 mod learning_execution;
 mod learning_laws;
 mod learning_pick_and_place;
+mod learning_selection;
 mod pick_and_place;

@@ -6,9 +6,14 @@
 mod cross_validation;
 mod folds;
 mod movement_error;
+mod prediction;
 mod reproduction;
+mod ridge;
+mod states;
 
 pub use cross_validation::{CrossValidation, HeldOut, cross_validate};
 pub use folds::folds;
 pub use movement_error::{ErrorSize, MovementError};
 pub use reproduction::{Reproduction, reproduction};
+pub use ridge::{RIDGES, RidgeCandidate, RidgeChoice, choose_ridge};
+pub use states::{StatesCandidate, StatesChoice, StatesCriterion, StatesSearch, choose_states, free_parameters};

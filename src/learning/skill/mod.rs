@@ -14,6 +14,7 @@ use super::{GripperProfile, LearningError, OrientationProfile};
 use crate::demonstration::ParameterSource;
 
 pub use request::Request;
+pub(super) use request::selection;
 
 /// A learned compliant parametric dynamic movement primitive.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,0 +1,36 @@
+//! How well a model predicts sequences that it was not learned from.
+
+use nalgebra::DVector;
+
+use super::super::phmm::{Phmm, Sequence};
+use super::super::{Gmr, LearningError};
+
+/// Root mean square error of the regression (14) on `left_out`, each column in units of its standard deviation over `all` (-).
+pub(super) fn prediction_error(model: &Phmm, left_out: &[Sequence], all: &[Sequence]) -> Result<f64, LearningError> {
+    let d = model.dimension();
+    let scale = spreads(all, d);
+    let (mut squares, mut count) = (0.0, 0.0);
+    for sequence in left_out {
+        let means: Vec<DVector<f64>> = (0..model.states()).map(|i| model.mean_at(i, &sequence.theta)).collect();
+        let gmr = Gmr::new(&means, &model.covariances, 1)?;
+        for t in 0..sequence.samples() {
+            let sample = sequence.sample(t);
+            let expected = gmr.mean(&sample[..1]);
+            squares += (1..d).map(|j| ((sample[j] - expected[j - 1]) / scale[j]).powi(2)).sum::<f64>();
+            count += (d - 1) as f64;
+        }
+    }
+    Ok((squares / f64::max(count, 1.0)).sqrt())
+}
+
+/// Standard deviation of every variable; 1 for one that is constant.
+fn spreads(sequences: &[Sequence], d: usize) -> Vec<f64> {
+    let of = |j: usize| {
+        let values = || sequences.iter().flat_map(move |s| s.values.iter().skip(j).step_by(d).copied());
+        let n = values().count() as f64;
+        let mean = values().sum::<f64>() / n;
+        let spread = (values().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
+        if spread > 1e-9 * mean.abs() && spread > 0.0 { spread } else { 1.0 }
+    };
+    (0..d).map(of).collect()
+}

@@ -1,0 +1,121 @@
+//! What left-out demonstrations decide: errors on movements that were not seen, the ridge, the number of states, parameters that are the
+//! start of the movement.
+
+use cpdmp::demonstration::{Dataset, Demonstration, ParameterSource, Trajectory};
+use cpdmp::learning::selection::{StatesCriterion, StatesSearch, cross_validate, free_parameters, reproduction};
+use cpdmp::learning::{ExecutionSettings, LearningSettings, generate, learn};
+use cpdmp::math::{standard_normal, stream};
+use nalgebra::DMatrix;
+
+/// A person's strokes from different places to one goal: an arc, with their own timing, bow and tremor.
+fn strokes(count: usize, seed: u64) -> Dataset {
+    let stroke = |k: usize| {
+        let mut hand = stream(seed, "hand", k as u64);
+        let mut draw = || standard_normal(&mut hand);
+        let (x0, y0, bow, skew) = (-0.3 + 0.06 * draw(), 0.2 + 0.06 * draw(), 0.08 + 0.01 * draw(), 0.15 * draw());
+        let samples = 120 + (20.0 * draw()).abs() as usize;
+        let values = DMatrix::from_fn(samples, 2, |t, j| {
+            let linear = t as f64 / (samples - 1) as f64;
+            let r = linear + skew * linear * (1.0 - linear);
+            let u = r * r * r * (10.0 - 15.0 * r + 6.0 * r * r);
+            let arc = bow * (std::f64::consts::PI * u).sin();
+            if j == 0 { x0 * (1.0 - u) + arc } else { y0 * (1.0 - u) + arc }
+        });
+        let tremor: Vec<f64> = (0..2 * samples).map(|_| 2e-4 * draw()).collect();
+        let values = values + DMatrix::from_vec(samples, 2, tremor);
+        let trajectory =
+            Trajectory::new((0..samples).map(|t| t as f64 * 0.01).collect(), ["x_m", "y_m"].map(str::to_owned).to_vec(), values);
+        Demonstration { name: format!("stroke_{k}"), trajectory: trajectory.unwrap(), theta_m: Vec::new(), theta_f: Vec::new() }
+    };
+    Dataset {
+        motion: ["x_m", "y_m"].map(str::to_owned).to_vec(),
+        wrench: Vec::new(),
+        parameter_source: ParameterSource::Given,
+        demonstrations: (0..count).map(stroke).collect(),
+    }
+}
+
+fn small() -> LearningSettings {
+    let mut settings = LearningSettings { rate_hz: 50.0, smoothing_window_s: 0.2, ..Default::default() };
+    (settings.motion.states, settings.motion.kmeans_starts) = (6, 0);
+    settings
+}
+
+#[test]
+fn with_the_start_as_parameter_a_start_alone_is_asked_for_and_kept() {
+    for source in [ParameterSource::Start, ParameterSource::StartRelativeToGoal] {
+        let data = strokes(7, 1).with_parameter_source(source);
+        let learned = learn(&data, &small(), 1).unwrap();
+        assert!(learned.report.ends.is_some());
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("skill.json");
+        learned.skill.write(&path).unwrap();
+        let skill = cpdmp::learning::Skill::read(&path).unwrap();
+        assert_eq!(skill.parameter_source, source);
+        let asked = ExecutionSettings { start: Some(vec![-0.25, 0.15]), ..Default::default() };
+        let request = skill.request(&asked).unwrap();
+        let moved = generate(&skill, &asked, 0.01, 1.0).unwrap();
+        assert_eq!(moved.values().row(0).iter().copied().collect::<Vec<_>>(), [-0.25, 0.15]);
+        let end = moved.values().row(moved.samples() - 1).transpose() - &request.goal;
+        assert!(end.norm() < 2e-3 && request.goal.norm() < 0.01, "ends {end}, goal {}", request.goal);
+        let (x0, _) = skill.ends_at(&request.theta);
+        assert!((x0 - &request.start).norm() < 1e-12, "the start belongs to its own parameters");
+        assert!(skill.request(&ExecutionSettings::default()).unwrap_err().to_string().contains("give a start"));
+    }
+}
+
+#[test]
+fn every_demonstration_is_predicted_once_and_worse_than_it_is_repeated() {
+    let data = strokes(6, 2).with_parameter_source(ParameterSource::Start);
+    let cv = cross_validate(&data, &small(), 3).unwrap();
+    let names: Vec<&str> = cv.held_out.iter().map(|h| h.demonstration.as_str()).collect();
+    assert_eq!(names, data.demonstrations.iter().map(|d| d.name.as_str()).collect::<Vec<_>>());
+    assert_eq!((cv.folds, cv.training.len()), (6, 6));
+    let (out, seen) = (cv.with_ends().unwrap(), cv.training().unwrap());
+    assert!(seen.path.rms < out.path.rms && out.path.rms < 0.03, "repeated {:?}, predicted {:?}", seen.path, out.path);
+    assert_eq!(cv, cross_validate(&data, &small(), 3).unwrap(), "the same bits again");
+    let one = Dataset { demonstrations: data.demonstrations[..1].to_vec(), ..data };
+    assert!(cross_validate(&one, &small(), 3).unwrap_err().to_string().contains("at least two"));
+}
+
+#[test]
+fn ridge_and_states_are_chosen_with_their_curves() {
+    let data = strokes(6, 4).with_parameter_source(ParameterSource::Start);
+    for criterion in [StatesCriterion::Bic, StatesCriterion::CrossValidation] {
+        let search = StatesSearch { criterion, min: 2, max: 7 };
+        let settings = LearningSettings { automatic_ridge: true, states_search: Some(search), ..small() };
+        let learned = learn(&data, &settings, 5).unwrap();
+        let (states, ridge) = (learned.report.states_choice.unwrap(), learned.report.ridge_choice.unwrap());
+        assert_eq!((states.curve.len(), learned.skill.motion.states()), (6, states.states));
+        assert!(states.curve.iter().all(|c| c.score >= states.curve.iter().find(|b| b.states == states.states).unwrap().score));
+        assert!(ridge.curve.iter().all(|c| c.error >= ridge.curve.iter().find(|b| b.ridge == ridge.ridge).unwrap().error));
+        assert!(!reproduction(&data, &learned.skill).unwrap().is_empty());
+    }
+}
+
+#[test]
+fn free_parameters_are_counted() {
+    let data = strokes(4, 6).with_parameter_source(ParameterSource::Start);
+    let settings = small();
+    let learned = learn(&data, &settings, 1).unwrap();
+    let cpdmp::learning::cpdmp::Shaping::Phmm(model) = &learned.skill.motion.shaping else { panic!() };
+    // 6 states of 3 means, 6 covariances, 2 x 2 weights, and 5 ways on.
+    assert_eq!(free_parameters(model, &settings.motion), 6 * (3 + 6 + 4) + 5);
+}
+
+#[test]
+#[ignore = "prints the evidence of leave-one-out"]
+fn evidence() {
+    for seed in 0..5 {
+        let given = strokes(7, 100 + seed);
+        for source in [ParameterSource::Given, ParameterSource::Start, ParameterSource::StartRelativeToGoal] {
+            let data = given.clone().with_parameter_source(source);
+            for (align, automatic_ridge) in [(false, false), (true, false), (false, true), (true, true)] {
+                let cv = cross_validate(&data, &LearningSettings { align, automatic_ridge, ..small() }, 1).unwrap();
+                let mm = |e: Option<cpdmp::learning::selection::MovementError>| 1e3 * e.unwrap().path.rms;
+                let (ends, alone, lwr, seen) = (mm(cv.with_ends()), mm(cv.parameters_alone()), mm(cv.lwr()), mm(cv.training()));
+                println!("{seed} {source:?} align {align} auto {automatic_ridge}: {ends:.2} alone {alone:.2} lwr {lwr:.2} seen {seen:.2}");
+            }
+        }
+    }
+}
