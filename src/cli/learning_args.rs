@@ -119,14 +119,14 @@ Examples:
   cpdmp learn demonstrations --out skill.json
   cpdmp learn demonstrations --theta start --cross-validate
   cpdmp learn demonstrations --states 12 --set compliance.threshold_m2=1e-4 --out skill.json
-  cpdmp learn demonstrations --init skill.json --max-iterations 20 --tolerance 0 --out refined.json
+  cpdmp learn demonstrations --init skill.json --max-iterations 9 --tolerance 0 --out more.json
 
 Without --out nothing is written. A file is replaced only when it is a skill. --set takes any key of [learning].";
 
 pub(super) const GENERATE_EXAMPLES: &str = "\
 Examples:
   cpdmp generate skill.json --theta height_m=0.2
-  cpdmp generate skill.json --theta height_m=0.2 --start x_m=0.1 --goal y_m=0.3 --duration 5 --out path.csv
+  cpdmp generate skill.json --theta height_m=0.2 --start x_m=0.1 --duration 5 --out path.csv
   cpdmp generate skill.json --theta height_m=0.2 --covariance --until 1.2 --dt 0.02
   cpdmp generate skill.json --theta height_m=0.2 --deny-extrapolation 0.5
 

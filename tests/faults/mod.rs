@@ -2,4 +2,5 @@
 
 mod extends;
 mod hostile_files;
+mod learning_files;
 mod scenario;

@@ -1,5 +1,7 @@
 //! What several tests need.
 
+pub mod hand_made;
+
 use cpdmp::robot::{self, RobotModel};
 use cpdmp::world::{Object, ObjectKind, Parameters, PhysicsSettings, Quantity, World, WorldSettings};
 use nalgebra::{Vector2, Vector3};

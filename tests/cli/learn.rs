@@ -1,0 +1,122 @@
+//! `cpdmp learn` on demonstrations that no simulator made: one CSV file, one command.
+
+use serde_json::Value;
+
+use super::{Folder, Said};
+use crate::support::hand_made::strokes_csv;
+
+/// Fewer starts and states than the defaults: the tests are about the command.
+const QUICK: [&str; 4] = ["--states", "8", "--set", "motion.kmeans_starts=0"];
+
+pub fn strokes() -> Folder {
+    Folder::with(&[("strokes.csv", strokes_csv(6).as_bytes())])
+}
+
+pub fn learn(folder: &Folder, more: &[&str]) -> Said {
+    folder.call(&[&["learn", "strokes.csv"], &QUICK[..], more].concat())
+}
+
+fn json(said: &Said) -> Value {
+    serde_json::from_str(&said.stdout).unwrap_or_else(|error| panic!("{error}: {}{}", said.stdout, said.stderr))
+}
+
+#[test]
+fn one_csv_with_several_repetitions_is_learned_in_one_command() {
+    let folder = strokes();
+    let said = learn(&folder, &["--theta", "start", "--out", "made/skill.json", "--format", "json"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    let report = json(&said);
+    assert_eq!(report["data"]["demonstrations"].as_array().map(Vec::len), Some(6));
+    assert_eq!(report["skill"]["states"].as_array().map(Vec::len), Some(8));
+    assert_eq!(report["written"], "made/skill.json");
+    let rms = report["reproduction_overall"]["rms"].as_f64().expect("an error is told");
+    assert!(rms > 0.0 && rms < 0.01, "the strokes are 1 m long and repeated within {rms} m");
+    assert!(cpdmp::learning::Skill::read(&folder.path().join("made/skill.json")).is_ok());
+    assert_eq!(folder.names(), ["made", "strokes.csv"]);
+}
+
+#[test]
+fn people_and_programs_are_told_the_same_numbers() {
+    let folder = strokes();
+    let report = json(&learn(&folder, &["--theta", "start", "--format", "json"]));
+    let said = learn(&folder, &["--theta", "start"]);
+    assert!(said.stdout.contains("start_x_m 0 … 0.5"), "{}", said.stdout);
+    let likelihood = report["motion_fit"]["log_likelihood"].as_array().and_then(|all| all.last()?.as_f64()).expect("a number");
+    let rms = report["reproduction"][2]["rms"].as_f64().expect("a number");
+    for number in [likelihood, rms] {
+        let digits = format!("{number:.9}").trim_start_matches(['-', '0', '.']).chars().take(2).collect::<String>();
+        assert!(said.stdout.contains(&digits), "{number} in {}", said.stdout);
+    }
+    assert!(said.stderr.contains("nothing was written"), "{}", said.stderr);
+}
+
+#[test]
+fn left_out_start_points_are_predicted_and_the_winner_is_named() {
+    let said = learn(&strokes(), &["--theta", "start", "--cross-validate", "--format", "json"]);
+    let validation = &json(&said)["cross_validation"];
+    assert_eq!((validation["folds"].as_u64(), validation["demonstrations"].as_array().map(Vec::len)), (Some(6), Some(6)));
+    let rms = |of: &str| validation[of]["rms"].as_f64().expect("a number");
+    assert!(rms("with_ends") < 0.05, "unseen start points are reached within {} m", rms("with_ends"));
+    assert_eq!(validation["better"] == "cpdmp", rms("with_ends") < rms("lwr"));
+}
+
+#[test]
+fn every_flag_reaches_the_learner() {
+    let folder = strokes();
+    let states = |more: &[&str]| json(&folder.call(&[&["learn", "strokes.csv", "--format", "json"], more].concat()));
+    let report = states(&["--states", "5", "--max-iterations", "3", "--tolerance", "0", "--stiffness", "900", "--motion", "y_m"]);
+    assert_eq!(report["motion_fit"]["iterations"], 3, "tolerance 0 makes exactly the most iterations");
+    assert_eq!((&report["skill"]["stiffness"], &report["skill"]["columns"]), (&900.0.into(), &serde_json::json!(["y_m"])));
+    let report = states(&["--set", "learning.motion.states=4", "--seed", "7", "--ridge", "1", "--theta", "start_relative_to_goal"]);
+    assert_eq!((report["skill"]["states"].as_array().map(Vec::len), &report["seed"]), (Some(4), &7.into()));
+    assert_eq!(report["skill"]["parameter_source"], "start_relative_to_goal");
+    let report = states(&["--baseline"]);
+    assert_eq!((&report["skill"]["shaping"], &report["motion_fit"]), (&"lwr".into(), &Value::Null));
+}
+
+#[test]
+fn settings_come_from_a_file_below_the_flags() {
+    let folder = strokes();
+    std::fs::write(folder.path().join("s.toml"), "[learning]\nstiffness = 700\n[learning.motion]\nstates = 3\n").expect("written");
+    let report = json(&folder.call(&["learn", "strokes.csv", "--settings", "s.toml", "--states", "4", "--format", "json"]));
+    assert_eq!((&report["skill"]["stiffness"], report["motion_fit"]["states"].as_u64()), (&700.0.into(), Some(4)));
+    std::fs::write(folder.path().join("s.toml"), "[learning]\nstifness = 700\n").expect("written");
+    let said = folder.call(&["learn", "strokes.csv", "--settings", "s.toml"]);
+    assert_eq!((said.code, said.stdout.as_str()), (Some(3), ""));
+    assert!(said.stderr.contains("s.toml:2") && said.stderr.contains("did you mean `stiffness`"), "{}", said.stderr);
+}
+
+#[test]
+fn a_skill_is_continued_and_one_of_other_columns_is_refused() {
+    let folder = strokes();
+    assert_eq!(learn(&folder, &["--out", "a.json", "--max-iterations", "5"]).code, Some(0));
+    let go_on = ["learn", "strokes.csv", "--init", "a.json", "--max-iterations", "4", "--tolerance", "0", "--format", "json"];
+    let report = json(&folder.call(&go_on));
+    assert_eq!((&report["motion_fit"]["starts"], &report["motion_fit"]["states"]), (&1.into(), &8.into()));
+    assert_eq!(report["motion_fit"]["iterations"], 4);
+    let said = folder.call(&[&go_on[..4], &["--motion", "y_m"]].concat());
+    assert_eq!(said.code, Some(3), "{}", said.stderr);
+    assert!(said.stderr.contains("motion columns of the first skill are [x_m, y_m], of the dataset [y_m]"), "{}", said.stderr);
+}
+
+#[test]
+fn only_a_skill_is_replaced() {
+    let folder = strokes();
+    std::fs::write(folder.path().join("thesis.json"), "{\"years\": \"of work\"}").expect("written");
+    for place in ["thesis.json", "."] {
+        let said = learn(&folder, &["--out", place]);
+        assert_eq!((said.code, said.stdout.as_str()), (Some(20), ""), "{}", said.stderr);
+    }
+    assert_eq!(std::fs::read_to_string(folder.path().join("thesis.json")).expect("there"), "{\"years\": \"of work\"}");
+    for _ in 0..2 {
+        assert_eq!(learn(&folder, &["--out", "a.json"]).code, Some(0), "an older skill is replaced");
+    }
+}
+
+#[test]
+fn quiet_says_nothing_on_stderr_and_plain_output_has_no_colours() {
+    let said = learn(&strokes(), &["--quiet", "--color", "never"]);
+    assert_eq!((said.code, said.stderr.as_str()), (Some(0), ""));
+    assert!(!said.stdout.contains('\u{1b}') && said.stdout.contains("Reproduction"));
+    assert!(learn(&strokes(), &["--color", "always"]).stdout.contains("\u{1b}[1m"));
+}

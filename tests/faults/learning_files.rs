@@ -1,0 +1,139 @@
+//! Datasets and skills that cannot be used, or only with care: the fault table's rows 14 to 23, on the real binary.
+
+use std::sync::OnceLock;
+
+use cpdmp::demonstration::synthetic::PickAndPlace;
+use cpdmp::learning::phmm::PhmmSettings;
+use cpdmp::learning::{LearningSettings, Skill, learn};
+use proptest::prelude::*;
+
+use crate::cli::Folder;
+
+/// A short movement of one column as CSV.
+fn csv(samples: usize, value: impl Fn(f64) -> f64) -> String {
+    let row = |i: usize| {
+        let u = i as f64 / (samples - 1).max(1) as f64;
+        format!("{:.4},{:.6}", 2.0 * u, value(u * u * (3.0 - 2.0 * u)))
+    };
+    format!("time_s,x_m\n{}\n", (0..samples).map(row).collect::<Vec<_>>().join("\n"))
+}
+
+/// A dataset of files with a parameter each.
+fn dataset(files: &[(String, &str)]) -> Folder {
+    let mut list = "schema_version = 1\nmotion = [\"x_m\"]\nwrench = []\n".to_owned();
+    for (k, (_, theta)) in files.iter().enumerate() {
+        list += &format!("[[demonstration]]\nfile = \"{k}.csv\"\ntheta_m = {theta}\n");
+    }
+    let folder = Folder::with(&[("d/dataset.toml", list.as_bytes())]);
+    for (k, (text, _)) in files.iter().enumerate() {
+        std::fs::write(folder.path().join(format!("d/{k}.csv")), text).expect("written");
+    }
+    folder
+}
+
+const QUICK: [&str; 6] = ["learn", "d", "--states", "4", "--set", "motion.kmeans_starts=0"];
+
+#[test]
+fn rows_14_and_15_bad_cells_and_times_are_told_with_file_row_and_column() {
+    let good = csv(50, |s| s);
+    for (bad, parts) in [
+        (good.replacen("0.0408,", "0.0408,nan", 1), vec!["0.csv, row 3", "column x_m"]),
+        (good.replacen("0.0408,", "-1,", 1), vec!["0.csv, row 3", "column time_s"]),
+        ("time_s,x_m\n0,1\n".to_owned(), vec!["0.csv", "1 sample"]),
+        (good.replacen("x_m", "y_m", 1), vec!["x_m"]),
+    ] {
+        let folder = dataset(&[(bad, "{ h_m = 1 }"), (good.clone(), "{ h_m = 2 }")]);
+        let said = folder.call(&[&QUICK[..], &["--out", "s.json"]].concat());
+        assert_eq!((said.code, said.stdout.as_str()), (Some(3), ""), "{}", said.stderr);
+        assert!(parts.iter().all(|part| said.stderr.contains(part)), "{parts:?}: {}", said.stderr);
+        assert_eq!(folder.names(), ["d"], "nothing is written");
+    }
+}
+
+#[test]
+fn rows_16_and_17_parameters_that_say_too_little_are_warned_of() {
+    let files = |thetas: [&'static str; 3]| dataset(&thetas.map(|theta| (csv(60, |s| 0.5 * s), theta)));
+    for thetas in [["{ h_m = 1 }"; 3], ["{ a = 1, b = 2 }", "{ a = 2, b = 4 }", "{ a = 3, b = 6 }"]] {
+        let said = files(thetas).call(&QUICK);
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+        assert!(said.stdout.contains("warning") && said.stdout.contains("theta_m"), "{}", said.stdout);
+        assert!(!said.stdout.contains("NaN"), "{}", said.stdout);
+    }
+}
+
+#[test]
+fn rows_14_and_18_a_constant_column_is_learned_and_too_few_samples_are_refused() {
+    let said = dataset(&[(csv(60, |_| 0.25), "{}"), (csv(60, |_| 0.25), "{}")]).call(&QUICK);
+    assert_eq!(said.code, Some(0), "{}{}", said.stdout, said.stderr);
+    assert!(!said.stdout.contains("NaN"), "{}", said.stdout);
+    let said = dataset(&[(csv(3, |s| s), "{}")]).call(&QUICK);
+    assert_eq!(said.code, Some(4), "{}{}", said.stdout, said.stderr);
+    assert!(said.stderr.contains("samples"), "{}", said.stderr);
+}
+
+fn skill_text() -> &'static str {
+    static TEXT: OnceLock<String> = OnceLock::new();
+    TEXT.get_or_init(|| {
+        let model = PhmmSettings { states: 3, kmeans_starts: 0, max_iterations: 5, ..PhmmSettings::default() };
+        let settings =
+            LearningSettings { motion: model.clone(), force: model, rate_hz: 2.0, orientation_basis: 4, ..LearningSettings::default() };
+        learn(&PickAndPlace::default().dataset(0), &settings, 0).expect("learned").skill.to_json().expect("JSON")
+    })
+}
+
+fn without_checksum(text: &str) -> String {
+    text.lines().filter(|line| !line.contains("\"checksum\"")).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn row_23_damaged_skills_are_refused_and_the_message_says_what_to_do() {
+    let text = skill_text();
+    let bare = without_checksum(text);
+    for (bad, part) in [
+        (text[..text.len() / 2].to_owned(), "not complete"),
+        (text.replacen("\"version\": 1", "\"version\": 9", 1), "newer"),
+        (text.replacen("cpdmp-skill", "cpdmp-run2", 1), "not a skill file"),
+        (text.replacen("\"stiffness\": 5000.0", "\"stiffness\": 5001.0", 1), "remove that key"),
+        (bare.replacen("\"stiffness\": 5000.0", "\"stiffness\": -1.0", 1), "stiffness"),
+        (bare.replacen("\"z_m\"", "\"z_m\", \"more_m\"", 1), "expected 4"),
+        (bare.replacen("\"z_m\"", "\"x_m\"", 1), "twice"),
+        (bare.replacen("\"stiffness\": 5000.0", "\"stiffness\": NaN", 1), "line"),
+        (bare.replacen("\"stiffness\": 5000.0", "\"stiffness\": null", 1), "line"),
+        ("[".repeat(100_000), "recursion"),
+        (String::new(), "not complete"),
+    ] {
+        let folder = Folder::with(&[("s.json", bad.as_bytes())]);
+        let said = folder.call(&["generate", "s.json", "--theta", "block_height_m=0.2"]);
+        assert_eq!((said.code, said.stdout.as_str()), (Some(3), ""), "{part}: {}", said.stderr);
+        assert!(said.stderr.contains(part) && said.stderr.contains("s.json"), "{part}: {}", said.stderr);
+    }
+    let folder = Folder::with(&[("s.json", bare.as_bytes())]);
+    let said = folder.call(&["generate", "s.json", "--theta", "block_height_m=0.2", "--expected-wrench"]);
+    assert_eq!(said.code, Some(0), "a skill of another program needs no checksum: {}", said.stderr);
+    assert!(said.stdout.lines().next().is_some_and(|header| header.ends_with("fx_n,fy_n,fz_n")), "{}", said.stdout);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Contract: no bytes make the reader panic, and what it accepts passes its own check and can be written again.
+    #[test]
+    fn row_23_no_mutation_of_a_skill_makes_the_reader_panic(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), prop::sample::select(b"0189-.e\"[]{},:x".to_vec())), 1..6),
+        cut in prop::option::of(any::<prop::sample::Index>()),
+    ) {
+        let mut bytes = without_checksum(skill_text()).into_bytes();
+        for (index, byte) in edits {
+            let at = index.index(bytes.len());
+            bytes[at] = byte;
+        }
+        if let Some(cut) = cut {
+            bytes.truncate(cut.index(bytes.len()));
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        if let Ok(skill) = Skill::from_json(&text) {
+            prop_assert!(skill.check().is_ok());
+            prop_assert!(!skill.to_json().expect("what is read can be written").contains("NaN"));
+        }
+    }
+}
