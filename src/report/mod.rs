@@ -3,6 +3,7 @@
 //! [`RunReport`] is the only source: `report.json` is its serialised form, and the table on the terminal is drawn from it. [`RunFolder`] is
 //! where a run leaves its files: written beside, then renamed, so that there is never half of one.
 
+mod choice_section;
 mod data_section;
 mod error_section;
 mod learn_report;
@@ -20,6 +21,7 @@ mod skill_section;
 mod table;
 mod text;
 
+pub use choice_section::{Candidate, ChoiceSection};
 pub use data_section::{ColumnRow, DataSection, DemonstrationRow};
 pub use error_section::{ErrorRow, ValidationRow, ValidationSection};
 pub use learn_report::LearnReport;
