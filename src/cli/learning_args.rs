@@ -11,7 +11,7 @@ pub(super) struct Learn {
     /// A dataset: a folder with dataset.toml, or what else holds demonstrations
     #[arg(value_name = "DATASET")]
     pub dataset: PathBuf,
-    /// Number of states of the motion model
+    /// Number of states of the motion model, or `auto`: the one that predicts best what is left out
     #[arg(long, value_name = "N")]
     pub states: Option<String>,
     /// Number of states of the force model
@@ -20,12 +20,16 @@ pub(super) struct Learn {
     /// Stiffness K of the movement primitive
     #[arg(long, value_name = "K")]
     pub stiffness: Option<String>,
-    /// Strength of the prior W = 0 of both models, as a number of demonstrations
+    /// Strength of the prior W = 0 of both models, as a number of demonstrations; or `auto`: that of the motion model is the one that
+    /// predicts best what is left out
     #[arg(long, value_name = "X")]
     pub ridge: Option<String>,
     /// Take the motion parameters from the demonstrations themselves, whatever the dataset says
     #[arg(long, value_enum, value_name = "SOURCE")]
     pub theta: Option<Theta>,
+    /// Align the demonstrations in time before learning: a smooth warp for each, ends fixed
+    #[arg(long)]
+    pub align: bool,
     /// Columns that the motion model learns, instead of the dataset's
     #[arg(long, value_name = "COLUMN,COLUMN", value_delimiter = ',')]
     pub motion: Vec<String>,
@@ -117,7 +121,7 @@ pub(super) struct Inspect {
 pub(super) const LEARN_EXAMPLES: &str = "\
 Examples:
   cpdmp learn demonstrations --out skill.json
-  cpdmp learn demonstrations --theta start --cross-validate
+  cpdmp learn demonstrations --theta start --align --cross-validate
   cpdmp learn demonstrations --states 12 --set compliance.threshold_m2=1e-4 --out skill.json
   cpdmp learn demonstrations --init skill.json --max-iterations 9 --tolerance 0 --out more.json
 

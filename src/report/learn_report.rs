@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::{DataSection, ErrorRow, FitSection, Outcome, SkillSection, ValidationSection};
+use super::{ChoiceSection, DataSection, ErrorRow, FitSection, Outcome, SkillSection, ValidationSection};
 use crate::demonstration::Dataset;
 use crate::learning::selection::{CrossValidation, Reproduction};
 use crate::learning::{Learned, LearningError};
@@ -34,6 +34,10 @@ pub struct LearnReport {
     pub motion_fit: Option<FitSection>,
     /// How the force model was fitted, when there is one.
     pub force_fit: Option<FitSection>,
+    /// What was chosen from the data.
+    pub choices: Vec<ChoiceSection>,
+    /// The largest shift in time of each demonstration by the alignment (s); empty without one.
+    pub alignment_shifts_s: Vec<f64>,
     /// Estimated standard deviation of sensor noise in the forcing term, per motion column (unit of the column).
     pub forcing_noise: Vec<f64>,
     /// The error of repeating every demonstration, told its parameters, start, goal and duration or the learned one.
@@ -73,6 +77,8 @@ impl LearnReport {
             skill: SkillSection::of(&learned.skill)?,
             motion_fit: report.motion.as_ref().map(FitSection::of),
             force_fit: report.force.as_ref().map(FitSection::of),
+            choices: ChoiceSection::of(report),
+            alignment_shifts_s: report.alignment_shifts_s.clone(),
             forcing_noise: report.forcing_noise.iter().map(|variance| variance.max(0.0).sqrt()).collect(),
             reproduction: rows,
             reproduction_overall: overall,

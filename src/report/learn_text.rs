@@ -1,7 +1,7 @@
 //! The report of `cpdmp learn` for people.
 
 use super::table::{figure, table};
-use super::{ErrorRow, FitSection, LearnReport};
+use super::{ChoiceSection, ErrorRow, FitSection, LearnReport};
 
 const BOLD: &str = "\u{1b}[1m";
 const PLAIN: &str = "\u{1b}[0m";
@@ -17,6 +17,11 @@ impl LearnReport {
         lines.extend(self.skill.lines());
         for (name, fit) in [("motion fit", &self.motion_fit), ("force fit", &self.force_fit)] {
             lines.extend(fit.as_ref().map(|fit| fit_line(name, fit)));
+        }
+        lines.extend(self.choices.iter().map(ChoiceSection::line));
+        if !self.alignment_shifts_s.is_empty() {
+            let shifts: Vec<String> = self.alignment_shifts_s.iter().map(|shift| figure(*shift)).collect();
+            lines.push(format!("  aligned      in time, by at most (s): {}", shifts.join(", ")));
         }
         lines.push(format!("  sensor noise {}", self.noise()));
         lines.extend([String::new(), heading(&format!("Reproduction: error in {unit}, at equal time fractions"))]);

@@ -3,6 +3,7 @@
 //! [`RunReport`] is the only source: `report.json` is its serialised form, and the table on the terminal is drawn from it. [`RunFolder`] is
 //! where a run leaves its files: written beside, then renamed, so that there is never half of one.
 
+mod choice_section;
 mod comparison;
 mod data_section;
 mod error_section;
@@ -22,6 +23,7 @@ mod skill_section;
 mod table;
 mod text;
 
+pub use choice_section::{Candidate, ChoiceSection};
 pub use comparison::{ComparisonReport, MethodSummary, MovementReport, SettingReport};
 pub use data_section::{ColumnRow, DataSection, DemonstrationRow};
 pub use error_section::{ErrorRow, ValidationRow, ValidationSection};

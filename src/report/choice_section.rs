@@ -1,0 +1,51 @@
+//! What learning chose from the data, with the curve it was chosen from.
+
+use serde::Serialize;
+
+use super::table::figure;
+use crate::learning::LearningReport;
+
+/// One setting that was chosen.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ChoiceSection {
+    /// Which setting: `motion.states` or `motion.ridge`.
+    pub setting: &'static str,
+    /// What was chosen.
+    pub chosen: f64,
+    /// Every candidate.
+    pub curve: Vec<Candidate>,
+}
+
+/// One candidate.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Candidate {
+    /// Its value.
+    pub value: f64,
+    /// Its score, less is better; none when it could not be learned.
+    pub score: Option<f64>,
+}
+
+impl ChoiceSection {
+    /// Every choice that learning made.
+    pub fn of(report: &LearningReport) -> Vec<Self> {
+        let candidate = |value: f64, score: f64| Candidate { value, score: Some(score).filter(|score| score.is_finite()) };
+        let states = report.states_choice.iter().map(|choice| Self {
+            setting: "motion.states",
+            chosen: choice.states as f64,
+            curve: choice.curve.iter().map(|one| candidate(one.states as f64, one.score)).collect(),
+        });
+        let ridge = report.ridge_choice.iter().map(|choice| Self {
+            setting: "motion.ridge",
+            chosen: choice.ridge,
+            curve: choice.curve.iter().map(|one| candidate(one.ridge, one.error)).collect(),
+        });
+        states.chain(ridge).collect()
+    }
+
+    /// The choice as a line of text.
+    pub fn line(&self) -> String {
+        let score = |one: &Candidate| one.score.map_or("-".to_owned(), figure);
+        let curve: Vec<String> = self.curve.iter().map(|one| format!("{}: {}", figure(one.value), score(one))).collect();
+        format!("  chosen       {} = {} (score, less is better: {})", self.setting, figure(self.chosen), curve.join(", "))
+    }
+}
