@@ -4,6 +4,7 @@ use super::tree::Node;
 use crate::learning::cpdmp::{ComplianceSettings, CouplingSettings, ForceConvention, Statistic, Switching, Threshold};
 use crate::learning::dmp::PhaseInput;
 use crate::learning::phmm::{CovarianceMode, PhmmSettings, Topology};
+use crate::learning::selection::{StatesCriterion, StatesSearch};
 use crate::learning::{Features, LearningSettings, ShapingKind};
 
 /// How the skill is learned.
@@ -22,10 +23,19 @@ pub(super) fn learning(table: &Node) -> LearningSettings {
         lwr_basis: table.size("lwr_basis"),
         compliance: compliance(&table.section("compliance")),
         orientation_basis: table.size("orientation_basis"),
-        align: false,
-        automatic_ridge: false,
-        states_search: None,
+        align: table.flag("align"),
+        automatic_ridge: table.flag("automatic_ridge"),
+        states_search: states_search(table),
     }
+}
+
+fn states_search(table: &Node) -> Option<StatesSearch> {
+    let criterion = match table.text("states_criterion") {
+        "bic" => StatesCriterion::Bic,
+        "cross_validation" => StatesCriterion::CrossValidation,
+        _ => return None,
+    };
+    Some(StatesSearch { criterion, min: table.size("states_min"), max: table.size("states_max") })
 }
 
 fn hidden_markov_model(table: &Node) -> PhmmSettings {

@@ -212,6 +212,13 @@ const LEARNING: Shape = Shape::plain(&[
     Key::new("gate_start", Number(within("", 0.5, 0.999)), "fraction of the duration from which the forcing fades out").or_number(0.94),
     Key::new("lwr_basis", Count(2, 1000), "basis functions of the baseline").or(Preset::Count(100)),
     Key::new("orientation_basis", Count(2, 500), "basis functions of the orientation").or(Preset::Count(40)),
+    Key::new("align", Flag, "whether demonstrations are brought to one timing first, by one warp each for all columns")
+        .or(Preset::Flag(false)),
+    Key::new("automatic_ridge", Flag, "whether the motion model's ridge is chosen by leaving demonstrations out").or(Preset::Flag(false)),
+    Key::new("states_criterion", Choice(&["given", "bic", "cross_validation"]), "what chooses the motion model's number of states")
+        .or(Preset::Text("given")),
+    Key::new("states_min", Count(1, 200), "fewest states that are tried").or(Preset::Count(4)),
+    Key::new("states_max", Count(1, 200), "most states that are tried").or(Preset::Count(24)),
     Key::new("motion", Section(MOTION_MODEL), "the hidden Markov model of the motion").or_empty(),
     Key::new("force", Section(FORCE_MODEL), "the hidden Markov model of the force").or_empty(),
     Key::new("compliance", Section(COMPLIANCE), "where the skill complies (20)").or_empty(),

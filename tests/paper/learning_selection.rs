@@ -102,20 +102,3 @@ fn free_parameters_are_counted() {
     // 6 states of 3 means, 6 covariances, 2 x 2 weights, and 5 ways on.
     assert_eq!(free_parameters(model, &settings.motion), 6 * (3 + 6 + 4) + 5);
 }
-
-#[test]
-#[ignore = "prints the evidence of leave-one-out"]
-fn evidence() {
-    for seed in 0..5 {
-        let given = strokes(7, 100 + seed);
-        for source in [ParameterSource::Given, ParameterSource::Start, ParameterSource::StartRelativeToGoal] {
-            let data = given.clone().with_parameter_source(source);
-            for (align, automatic_ridge) in [(false, false), (true, false), (false, true), (true, true)] {
-                let cv = cross_validate(&data, &LearningSettings { align, automatic_ridge, ..small() }, 1).unwrap();
-                let mm = |e: Option<cpdmp::learning::selection::MovementError>| 1e3 * e.unwrap().path.rms;
-                let (ends, alone, lwr, seen) = (mm(cv.with_ends()), mm(cv.parameters_alone()), mm(cv.lwr()), mm(cv.training()));
-                println!("{seed} {source:?} align {align} auto {automatic_ridge}: {ends:.2} alone {alone:.2} lwr {lwr:.2} seen {seen:.2}");
-            }
-        }
-    }
-}
