@@ -75,7 +75,7 @@ impl Chain {
         let mut arriving = self.initial.clone();
         for log_row in log_b.chunks_exact(n) {
             let row = alpha.len();
-            shifts += push_shifted(log_row, &mut b);
+            shifts += push_shifted(log_row, &arriving, &mut b);
             alpha.extend(arriving.iter().zip(&b[row..]).map(|(a, b)| a * b));
             let total: f64 = alpha[row..].iter().sum();
             let scale = total.recip();
@@ -129,11 +129,19 @@ fn something(value: f64) -> f64 {
     if value < NOTHING { 0.0 } else { value }
 }
 
-/// Appends `exp(x_i - max x)` and returns the shift. A row of `-inf` becomes not-a-number, which ends the scaled recursion.
-fn push_shifted(log_row: &[f64], b: &mut Vec<f64>) -> f64 {
+/// Appends `exp(x_i - max x)` over the states that can be there at all (`arriving > 0`), 0 for the others, and returns the shift. A state
+/// that nothing arrives at has `alpha = 0`, so nothing is lost, and most exponentials of a chain that is passed in order are saved. Without a
+/// finite maximum the row becomes not-a-number, which ends the scaled recursion.
+fn push_shifted(log_row: &[f64], arriving: &[f64], b: &mut Vec<f64>) -> f64 {
     /// `ln 1e-290`.
     const NOTHING: f64 = -667.7;
-    let shift = log_row.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    b.extend(log_row.iter().map(|x| if x - shift < NOTHING { 0.0 } else { (x - shift).exp() }));
+    let possible = log_row.iter().zip(arriving).filter(|(_, a)| **a > 0.0);
+    let shift = possible.map(|(x, _)| *x).fold(f64::NEG_INFINITY, f64::max);
+    let relative = |(x, a): (&f64, &f64)| if *a > 0.0 && x - shift >= NOTHING { (x - shift).exp() } else { 0.0 };
+    if shift.is_finite() {
+        b.extend(log_row.iter().zip(arriving).map(relative));
+    } else {
+        b.extend(log_row.iter().map(|_| f64::NAN));
+    }
     shift
 }
