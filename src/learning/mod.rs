@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Equation numbers are those of E. Ugur and H. Girgin, "Compliant Parametric Dynamic Movement Primitives", Robotica 38(3), 2020.
-//! Rooms inside: [`dmp`] (the primitive and its baseline), [`phmm`] (the parametric hidden Markov model), [`cpdmp`] (what joins them).
+//! Rooms inside: [`dmp`] (the primitive and its baseline), [`phmm`] (the parametric hidden Markov model), [`cpdmp`] (what joins them),
+//! [`tpgmm`] (the rival).
 
 pub mod cpdmp;
 pub mod dmp;
@@ -23,6 +24,7 @@ mod prepare;
 mod report;
 mod settings;
 mod skill;
+pub mod tpgmm;
 mod warnings;
 
 pub use error::{LearningError, SettingFault};

@@ -6,3 +6,5 @@ mod learning_laws;
 mod learning_pick_and_place;
 mod pick_and_place;
 mod planar_obstacle_avoidance;
+mod planar_two_sided;
+mod tpgmm;
