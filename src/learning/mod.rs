@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Equation numbers are those of E. Ugur and H. Girgin, "Compliant Parametric Dynamic Movement Primitives", Robotica 38(3), 2020.
-//! Rooms inside: [`dmp`] (the primitive and its baseline), [`phmm`] (the parametric hidden Markov model), [`cpdmp`] (what joins them).
+//! Rooms inside: [`dmp`] (the primitive and its baseline), [`phmm`] (the parametric hidden Markov model), [`cpdmp`] (what joins them),
+//! [`tpgmm`] (the rival).
 
 pub mod cpdmp;
 pub mod dmp;
@@ -27,6 +28,7 @@ mod report;
 pub mod selection;
 mod settings;
 mod skill;
+pub mod tpgmm;
 mod warnings;
 
 pub use ends::{EndRule, EndsReport};

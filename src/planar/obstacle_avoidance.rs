@@ -32,7 +32,8 @@ pub struct ObstacleAvoidanceSettings {
     pub pass_fraction: f64,
     /// How the movements are shown.
     pub hand: HandSettings,
-    /// How both methods learn; `shaping` is not used. Default 10 states and the room's defaults otherwise.
+    /// How both methods learn; `shaping` is not used. Default the room's own, with 16 states, but no start by k-means: time slices were
+    /// likelier with each of 20 seeds.
     pub learning: LearningSettings,
 }
 
@@ -48,7 +49,10 @@ impl Default for ObstacleAvoidanceSettings {
             clearance_m: 1.0,
             pass_fraction: 0.5,
             hand: HandSettings::default(),
-            learning: LearningSettings { motion: PhmmSettings { states: 10, ..PhmmSettings::default() }, ..LearningSettings::default() },
+            learning: LearningSettings {
+                motion: PhmmSettings { kmeans_starts: 0, ..PhmmSettings::default() },
+                ..LearningSettings::default()
+            },
         }
     }
 }
@@ -76,6 +80,13 @@ impl ObstacleAvoidanceSettings {
         let distinct = self.taught_goals_x_m.iter().any(|x| *x != self.taught_goals_x_m[0]);
         check("number of different taught_goals_x_m", if distinct { 2.0 } else { self.taught_goals_x_m.len().min(1) as f64 }, 2.0, 1e3, "");
         faults.extend(self.hand.faults());
+        if faults.is_empty() {
+            let obstacle = self.obstacle();
+            faults.extend(self.taught_goals_x_m.iter().chain(&self.new_goals_x_m).filter_map(|x| {
+                let clearance = obstacle.clearance(&self.path_to(*x).sampled(SAMPLES));
+                SettingFault::outside(&format!("the person's own clearance on the way to goal_x_m = {x}"), clearance, 1e-3, 1e3, "m")
+            }));
+        }
         if faults.is_empty() { Ok(()) } else { Err(LearningError::Settings(faults)) }
     }
 

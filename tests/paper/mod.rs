@@ -11,3 +11,5 @@ mod phmm_inference;
 mod phmm_laws;
 mod pick_and_place;
 mod planar_obstacle_avoidance;
+mod planar_two_sided;
+mod tpgmm;

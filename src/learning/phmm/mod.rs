@@ -35,5 +35,6 @@ pub use kmeans::k_means;
 pub use maximisation::{Penalty, maximise_state};
 pub use model::{Phmm, Sequence};
 pub use settings::{CovarianceMode, PhmmSettings, Start, Topology};
+pub(in crate::learning) use standardisation::mean_and_spread;
 pub use state_chain::{StateChain, TransitionEdge, TransitionGraph, TransitionNode};
 pub use statistics::{Group, gather};

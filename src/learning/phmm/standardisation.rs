@@ -77,7 +77,7 @@ impl Standardisation {
 }
 
 /// Mean and standard deviation; the first value and 1 when the values are constant, so that equal values become exactly zero.
-fn mean_and_spread(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+pub(in crate::learning) fn mean_and_spread(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let n = values.clone().count().max(1) as f64;
     let mean = values.clone().sum::<f64>() / n;
     let spread = (values.clone().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
