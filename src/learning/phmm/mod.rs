@@ -25,6 +25,8 @@ mod starts;
 mod state_chain;
 mod statistics;
 
+pub(in crate::learning) use standardisation::mean_and_spread;
+
 pub use baum_welch::FitStatus;
 pub use fit::{Fit, StartReport, fit, refine};
 pub use forward_backward::{Expectation, expect};
@@ -32,6 +34,5 @@ pub use kmeans::k_means;
 pub use maximisation::{Penalty, maximise_state};
 pub use model::{Phmm, Sequence};
 pub use settings::{PhmmSettings, Start, Topology};
-pub(in crate::learning) use standardisation::mean_and_spread;
 pub use state_chain::{StateChain, TransitionEdge, TransitionGraph, TransitionNode};
 pub use statistics::{Group, gather};
