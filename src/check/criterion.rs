@@ -50,6 +50,17 @@ pub enum CriterionKind {
         min_m: f64,
     },
     /// The movements of a method stay away from the obstacle. Value: the smallest clearance (m), negative inside. Without such a movement there
+    /// A method passes on every side that is asked for, in planar settings where the side is told or not.
+    PlanarSidesPassed {
+        /// Whose movements.
+        method: Method,
+        /// In which settings.
+        settings: PlanarSettings,
+        /// Whether the side is a parameter of them.
+        side_told: bool,
+        /// Smallest distance to the obstacle with which each side must be passed (m).
+        min_m: f64,
+    },
     /// is no answer.
     PlanarClearance {
         /// Whose movements.

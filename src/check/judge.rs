@@ -57,7 +57,9 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
         CriterionKind::Clearance { objects, min_m } => (clearance(outcome, objects, *min_m), false),
         // Asked of planar experiments only: of an arm there is nothing to measure.
-        CriterionKind::PlanarClearance { min_m, .. } => (Answer::at_least(f64::NAN, *min_m, "m"), false),
+        CriterionKind::PlanarClearance { min_m, .. } | CriterionKind::PlanarSidesPassed { min_m, .. } => {
+            (Answer::at_least(f64::NAN, *min_m, "m"), false)
+        }
         CriterionKind::PlanarCollides { .. } => (Answer::at_least(f64::NAN, 1.0, "settings"), false),
         CriterionKind::GoalReached { max_m } => (goal_reached(outcome, *max_m), true),
         CriterionKind::HumanForce { max_n } => (human_force(outcome, *max_n), true),

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::figure::{Figure, planar_forcing, planar_paths, svg};
-use crate::planar::{Guidance, Method, Movement, PlanarOutcome};
+use crate::figure::{Figure, planar_forcing, planar_paths, svg, transitions};
+use crate::planar::{Guidance, Method, Movement, PlanarOutcome, Transitions};
 use crate::recording::{LoggedPath, write_path_log};
 use crate::report::write_file;
 use crate::scenario::{PlanarRun, RecordingPlan};
@@ -35,6 +35,33 @@ fn logged<'a>(movement: &'a Movement, setting: &'a str) -> LoggedPath<'a> {
     LoggedPath { method: movement.method.key(), setting, points_m: &movement.path_m }
 }
 
+/// The figures of an experiment: those of section 4.1, or those of section 4.2 with the side told and without.
+fn figures(left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
+    if left.cases_with(Guidance::OneSide).next().is_some() {
+        return vec![
+            ("paths.svg", planar_paths("Paths to taught and new goals", left, Guidance::OneSide)),
+            ("forcing.svg", planar_forcing("Forcing terms and states of CPDMP", left, Guidance::OneSide, Method::Cpdmp)),
+        ];
+    }
+    let mut figures = vec![
+        ("paths_with_side.svg", planar_paths("The side is told", left, Guidance::WithSide)),
+        ("paths_without_side.svg", planar_paths("The side is not told", left, Guidance::WithoutSide)),
+        ("forcing_with_side.svg", planar_forcing("Forcing terms and states, side told", left, Guidance::WithSide, Method::Cpdmp)),
+        ("forcing_chains.svg", planar_forcing("Forcing terms and states, by chains", left, Guidance::WithoutSide, Method::CpdmpChain)),
+    ];
+    figures.extend(left.transitions.iter().map(|t| ("transitions.svg", graph(t))));
+    figures
+}
+
+/// The states of the model that is not told the side, and how they follow each other.
+fn graph(states: &Transitions) -> Figure {
+    /// Width and height of the panel (pt).
+    const PANEL_PT: [f64; 2] = [640.0, 320.0];
+    let title = "States and chains, the side not told";
+    let panel = transitions("", &states.graph, &states.chains, PANEL_PT[0]);
+    Figure { title: title.to_owned(), panels: vec![panel], columns: 1, panel_size_pt: PANEL_PT }
+}
+
 fn draw(left: &PlanarOutcome, folder: &Path) -> Vec<String> {
     if let Err(error) = std::fs::create_dir(folder) {
         return vec![format!("{}: {error}", folder.display())];
@@ -43,9 +70,5 @@ fn draw(left: &PlanarOutcome, folder: &Path) -> Vec<String> {
         let document = svg(&figure).map_err(|error| error.to_string())?;
         write_file(&folder.join(name), &document).map_err(|error| error.to_string())
     };
-    let figures = [
-        ("paths.svg", planar_paths("Paths to taught and new goals", left, Guidance::OneSide)),
-        ("forcing.svg", planar_forcing("Forcing terms and states of CPDMP", left, Guidance::OneSide, Method::Cpdmp)),
-    ];
-    figures.into_iter().filter_map(|figure| written(figure).err()).collect()
+    figures(left).into_iter().filter_map(|figure| written(figure).err()).collect()
 }

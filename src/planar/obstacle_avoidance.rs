@@ -1,7 +1,8 @@
 //! Section 4.1: four goals are taught, all beyond an obstacle that is passed on its right; new goals lie beyond the taught ones.
 //!
-//! The further left a goal lies, the more a movement towards it must bend. CPDMP learns how the forcing term changes with the goal. LWR-DMP is
-//! given the new goal, but its forcing term is the mean of all demonstrations: the whole path leans to the left, and hits the obstacle.
+//! The further left a goal lies, the more a movement towards it must bend. CPDMP learns how the forcing term changes with the goal.
+//! LWR-DMP is given the new goal, but its forcing term is the mean of all demonstrations: the whole path leans to the left, and hits the
+//! obstacle.
 
 use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::{

@@ -1,7 +1,7 @@
 //! From a skill to a path, and from a path to a judgement.
 
 use super::{COLUMNS, Ellipse, Guidance, Ideal, Method, ModelReport, Movement, Shown, Side};
-use crate::demonstration::{Dataset, Parameters, Trajectory};
+use crate::demonstration::{Dataset, Demonstration, Parameters, Trajectory};
 use crate::learning::{ExecutionSettings, LearningError, LearningReport, Skill, generate};
 
 /// Positions of a path that is judged or drawn: enough that a chord leaves the path by less than a millimetre.
@@ -62,7 +62,7 @@ pub(super) fn judged(
 
 /// The demonstrations of a dataset, each with its obstacle.
 pub(super) fn shown(dataset: &Dataset, obstacles: &[Ellipse]) -> Result<Vec<Shown>, LearningError> {
-    let one = |(demonstration, obstacle): (&crate::demonstration::Demonstration, &Ellipse)| {
+    let one = |(demonstration, obstacle): (&Demonstration, &Ellipse)| {
         let path_m = positions(&demonstration.trajectory)?;
         Ok(Shown {
             name: demonstration.name.clone(),

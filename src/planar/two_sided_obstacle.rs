@@ -3,6 +3,8 @@
 //! Told the side, every method has one movement to learn per situation. Not told, a model holds both sides at once: regression over all of
 //! it averages them and hits the obstacle, while the chains of a hidden Markov model keep them apart.
 
+use nalgebra::DVector;
+
 use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::rival::Rival;
 use super::two_sided_settings::TwoSidedObstacleSettings;
@@ -86,12 +88,12 @@ fn without_side(settings: &TwoSidedObstacleSettings, seed: u64) -> Result<Learne
 }
 
 /// The middle of the demonstrated parameters.
-fn mean_theta(skill: &Skill) -> nalgebra::DVector<f64> {
+fn mean_theta(skill: &Skill) -> DVector<f64> {
     let ranges = &skill.motion.parameters.ranges;
-    nalgebra::DVector::from_iterator(ranges.len(), ranges.iter().map(|[from, to]| 0.5 * (from + to)))
+    DVector::from_iterator(ranges.len(), ranges.iter().map(|[from, to]| 0.5 * (from + to)))
 }
 
-fn transitions_of(phmm: &Phmm, theta: &nalgebra::DVector<f64>) -> Transitions {
+fn transitions_of(phmm: &Phmm, theta: &DVector<f64>) -> Transitions {
     let graph = TransitionGraph::of(phmm, theta);
     let matrix = phmm.transition.row_iter().map(|row| row.iter().copied().collect()).collect();
     Transitions { matrix, chains: graph.chains(), graph }

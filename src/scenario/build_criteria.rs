@@ -37,6 +37,12 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
         "planar_clearance" => {
             CriterionKind::PlanarClearance { method: method(table)?, settings: settings(table), min_m: table.number("min_m") }
         }
+        "planar_sides_passed" => CriterionKind::PlanarSidesPassed {
+            method: method(table)?,
+            settings: settings(table),
+            side_told: table.flag("side_told"),
+            min_m: table.number("min_m"),
+        },
         "planar_collides" => CriterionKind::PlanarCollides { method: method(table)?, settings: settings(table) },
         "goal_reached" => CriterionKind::GoalReached { max_m: max_m() },
         "human_force" => CriterionKind::HumanForce { max_n: table.number("max_n") },

@@ -45,21 +45,42 @@ const PLANAR: Shape = Shape {
         Key::new("kind", Tag, "which experiment"),
         Key::new("obstacle_half_depth_m", Number(within("m", 0.05, 10.0)), "half depth of the obstacle, along y").or_number(0.5),
         Key::new("start_m", Vector(within("m", -100.0, 100.0), Exactly(2)), "where movements start").or(Preset::Vector(&[0.0, -4.0])),
-        Key::new("goal_y_m", Number(within("m", -100.0, 100.0)), "where goals lie along y").or_number(4.0),
         Key::new("clearance_m", Number(within("m", 0.01, 10.0)), "distance at which the person passes the obstacle's edge").or_number(1.0),
         Key::new("pass_fraction", Number(within("", 0.1, 0.9)), "when they pass it, as a fraction of the duration").or_number(0.5),
         Key::new("hand", Section(HAND), "how movements are shown").or_empty(),
     ],
-    variants: &[Variant {
-        kind: "obstacle_avoidance",
-        keys: &[
-            Key::new("obstacle_half_width_m", Number(within("m", 0.05, 10.0)), "half width of the obstacle, along x").or_number(1.0),
-            Key::new("taught_goals_x_m", Vector(within("m", -100.0, 100.0), AtLeast(2)), "taught goals along x")
-                .or(Preset::Vector(&[1.0, 2.0, 3.0, 4.0])),
-            Key::new("new_goals_x_m", Vector(within("m", -100.0, 100.0), AtLeast(0)), "new goals along x")
-                .or(Preset::Vector(&[-2.0, -1.0, 0.0, 2.5, 5.0])),
-        ],
-    }],
+    variants: &[
+        Variant {
+            kind: "obstacle_avoidance",
+            keys: &[
+                Key::new("goal_y_m", Number(within("m", -100.0, 100.0)), "where goals lie along y").or_number(4.0),
+                Key::new("obstacle_half_width_m", Number(within("m", 0.05, 10.0)), "half width of the obstacle, along x").or_number(1.0),
+                Key::new("taught_goals_x_m", Vector(within("m", -100.0, 100.0), AtLeast(2)), "taught goals along x")
+                    .or(Preset::Vector(&[1.0, 2.0, 3.0, 4.0])),
+                Key::new("new_goals_x_m", Vector(within("m", -100.0, 100.0), AtLeast(0)), "new goals along x")
+                    .or(Preset::Vector(&[-2.0, -1.0, 0.0, 2.5, 5.0])),
+            ],
+        },
+        Variant {
+            kind: "two_sided_obstacle",
+            keys: &[
+                Key::new(
+                    "taught_half_widths_m",
+                    Vector(within("m", 0.05, 10.0), AtLeast(2)),
+                    "taught half widths of the obstacle, along x",
+                )
+                .or(Preset::Vector(&[1.0, 2.0])),
+                Key::new("new_half_widths_m", Vector(within("m", 0.05, 10.0), AtLeast(0)), "new half widths")
+                    .or(Preset::Vector(&[1.5, 2.5])),
+                Key::new("goal_m", Vector(within("m", -100.0, 100.0), Exactly(2)), "where movements end").or(Preset::Vector(&[0.0, 4.0])),
+                Key::new("states_without_side", Count(1, 200), "states of the model that is not told the side; any may follow any other")
+                    .or(Preset::Count(9)),
+                Key::new("kmeans_starts_without_side", Count(0, 1000), "its starts by k-means, beside those by time slices")
+                    .or(Preset::Count(4)),
+                Key::new("tp_gmm_components", Count(1, 200), "components of TP-GMM").or(Preset::Count(16)),
+            ],
+        },
+    ],
 };
 
 const HAND: Shape = Shape::plain(&[
@@ -365,6 +386,15 @@ const CRITERION: Shape = Shape {
             keys: &[
                 Key::new("method", Choice(&METHODS), "whose movements"),
                 Key::new("settings", Choice(&["all", "taught", "new", "beyond"]), "in which settings").or(Preset::Text("all")),
+            ],
+        },
+        Variant {
+            kind: "planar_sides_passed",
+            keys: &[
+                Key::new("method", Choice(&METHODS), "whose movements"),
+                Key::new("settings", Choice(&["all", "taught", "new", "beyond"]), "in which settings").or(Preset::Text("all")),
+                Key::new("side_told", Flag, "whether the settings are those in which the side is a parameter"),
+                Key::new("min_m", Number(within("m", -100.0, 100.0)), "smallest distance with which each side must be passed"),
             ],
         },
         Variant { kind: "goal_reached", keys: &[Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest distance to the goal")] },

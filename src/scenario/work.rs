@@ -2,7 +2,9 @@
 
 use crate::demonstration::Dataset;
 use crate::learning::LearningError;
-use crate::planar::{ObstacleAvoidanceSettings, PlanarOutcome, obstacle_avoidance};
+use crate::planar::{
+    Guidance, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
+};
 use crate::simulation::Experiment;
 
 /// What a scenario runs.
@@ -30,6 +32,8 @@ pub struct PlanarRun {
 pub enum PlanarPlan {
     /// Section 4.1 of the paper.
     ObstacleAvoidance(ObstacleAvoidanceSettings),
+    /// Section 4.2 of the paper.
+    TwoSidedObstacle(TwoSidedObstacleSettings),
 }
 
 impl Work {
@@ -58,8 +62,12 @@ impl PlanarRun {
     /// # Errors
     /// All settings that make no sense.
     pub fn check(&self) -> Result<(), LearningError> {
-        let PlanarPlan::ObstacleAvoidance(settings) = &self.plan;
-        settings.check().and_then(|()| settings.learning.check())
+        match &self.plan {
+            PlanarPlan::ObstacleAvoidance(settings) => settings.check().and_then(|()| settings.learning.check()),
+            PlanarPlan::TwoSidedObstacle(settings) => {
+                settings.check().and_then(|()| settings.learning.check()).and_then(|()| settings.learning_without_side.check())
+            }
+        }
     }
 
     /// What is shown.
@@ -67,8 +75,10 @@ impl PlanarRun {
     /// # Errors
     /// When the settings make no usable trajectory.
     pub fn dataset(&self) -> Result<Dataset, LearningError> {
-        let PlanarPlan::ObstacleAvoidance(settings) = &self.plan;
-        settings.dataset(self.seed)
+        match &self.plan {
+            PlanarPlan::ObstacleAvoidance(settings) => settings.dataset(self.seed),
+            PlanarPlan::TwoSidedObstacle(settings) => settings.dataset(Method::Cpdmp, Guidance::WithSide, self.seed),
+        }
     }
 
     /// Runs it.
@@ -76,7 +86,9 @@ impl PlanarRun {
     /// # Errors
     /// When nothing can be learned.
     pub fn run(&self) -> Result<PlanarOutcome, LearningError> {
-        let PlanarPlan::ObstacleAvoidance(settings) = &self.plan;
-        obstacle_avoidance(settings, self.seed)
+        match &self.plan {
+            PlanarPlan::ObstacleAvoidance(settings) => obstacle_avoidance(settings, self.seed),
+            PlanarPlan::TwoSidedObstacle(settings) => two_sided_obstacle(settings, self.seed),
+        }
     }
 }

@@ -99,7 +99,8 @@ proptest! {
         }).collect();
         let settings = TpGmmSettings { components, covariance_floor: floor, kmeans_starts: 2, max_iterations: 60, tolerance: 1e-9 };
         let fitted = fit(&sequences, &settings, seed).unwrap();
-        prop_assert!(fitted.starts.iter().all(|s| matches!(s.status, FitStatus::Converged | FitStatus::IterationLimit)), "{:?}", fitted.starts);
+        let ended = |s: FitStatus| matches!(s, FitStatus::Converged | FitStatus::IterationLimit);
+        prop_assert!(fitted.starts.iter().all(|s| ended(s.status)), "{:?}", fitted.starts);
         let samples: usize = sequences.iter().map(FramedSequence::samples).sum();
         for pair in fitted.history.windows(2) {
             let size = pair[0].abs() + (samples * frames * (1 + columns)) as f64 * 8.0;
@@ -144,9 +145,8 @@ fn one_frame_that_stays_is_a_plain_mixture() {
 fn the_product_is_proportional_to_the_product_of_the_densities() {
     let fitted = fit(&planted(2, 5), &TpGmmSettings { components: 4, ..TpGmmSettings::default() }, 0).unwrap();
     let frames = [turned(0.4, [0.5, -0.2]), turned(-0.3, [4.8, 2.5])];
-    let (means, covariances) = fitted.model.product(&frames).unwrap();
-    for i in 0..4 {
-        let product = Gaussian::new(means[i].clone(), covariances[i].clone()).unwrap();
+    let products = fitted.model.product(&frames).unwrap();
+    for (i, product) in products.iter().enumerate() {
         let factors: Vec<Gaussian> = (0..2)
             .map(|j| {
                 let (mean, covariance) = frames[j].global(&fitted.model.means[j][i], &fitted.model.covariances[j][i]);
@@ -155,10 +155,10 @@ fn the_product_is_proportional_to_the_product_of_the_densities() {
             .collect();
         // ln prod_j N_j(x) - ln N(x) is the same for every x.
         let constant = |x: &DVector<f64>| factors.iter().map(|g| g.log_density(x)).sum::<f64>() - product.log_density(x);
-        let reference = constant(&means[i]);
+        let reference = constant(product.mean());
         for axis in 0..3 {
-            let mut x = means[i].clone();
-            x[axis] += 2.0 * covariances[i][(axis, axis)].sqrt();
+            let mut x = product.mean().clone();
+            x[axis] += 2.0 * product.covariance()[(axis, axis)].sqrt();
             assert!((constant(&x) - reference).abs() < 1e-7 * reference.abs().max(1.0), "{} {reference}", constant(&x));
         }
     }

@@ -27,6 +27,8 @@ mod starts;
 mod state_chain;
 mod statistics;
 
+pub(in crate::learning) use standardisation::mean_and_spread;
+
 pub use baum_welch::FitStatus;
 pub use evidence::StateEvidence;
 pub use fit::{Fit, StartReport, fit, refine};
@@ -35,6 +37,5 @@ pub use kmeans::k_means;
 pub use maximisation::{Penalty, maximise_state};
 pub use model::{Phmm, Sequence};
 pub use settings::{CovarianceMode, PhmmSettings, Start, Topology};
-pub(in crate::learning) use standardisation::mean_and_spread;
 pub use state_chain::{StateChain, TransitionEdge, TransitionGraph, TransitionNode};
 pub use statistics::{Group, gather};

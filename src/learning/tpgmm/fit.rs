@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::expectation_maximisation::{Problem, Run};
+use super::expectation_maximisation::Run;
+use super::problem::Problem;
 use super::{FramedSequence, TpGmm, TpGmmSettings, TpGmmStart};
 use crate::learning::LearningError;
 use crate::learning::phmm::{FitStatus, k_means};

@@ -1,5 +1,5 @@
-//! Task-parameterised Gaussian mixtures (S. Calinon, "A tutorial on task-parameterized movement learning and retrieval", Intelligent Service
-//! Robotics 9(1), 2016): the rival of the parametric hidden Markov model.
+//! Task-parameterised Gaussian mixtures (S. Calinon, "A tutorial on task-parameterized movement learning and retrieval", Intelligent
+//! Service Robotics 9(1), 2016): the rival of the parametric hidden Markov model.
 //!
 //! ```text
 //! x'_j = A_j^-1 (x - b_j)                                     each sample as every frame j of its demonstration sees it
@@ -15,6 +15,7 @@ mod expectation_maximisation;
 mod fit;
 mod frame;
 mod model;
+mod problem;
 mod settings;
 
 pub use fit::{TpGmmFit, TpGmmStartReport, fit};

@@ -4,6 +4,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::Frame;
 use crate::learning::{Gmr, LearningError};
+use crate::math::Gaussian;
 
 /// A mixture of `N` components over the phase input and `d` columns, as `P` frames see them.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,28 +24,29 @@ impl TpGmm {
         self.priors.len()
     }
 
-    /// The product of Gaussians for new frames (P): means (N of 1 + d) and covariances (N of 1 + d square) in coordinates of the task.
+    /// The product of Gaussians for new frames (P): one per component, over the phase input and the columns in coordinates of the task.
     ///
     /// `Sigma_i = (sum_j S_ij^-1)^-1`, `mu_i = Sigma_i sum_j S_ij^-1 m_ij`, for frame `j`'s Gaussian `N(m_ij, S_ij)`.
     ///
     /// # Errors
     /// When the number or dimension of the frames is not that of the demonstrations, or a covariance is not positive definite.
-    pub fn product(&self, frames: &[Frame]) -> Result<(Vec<DVector<f64>>, Vec<DMatrix<f64>>), LearningError> {
+    pub fn product(&self, frames: &[Frame]) -> Result<Vec<Gaussian>, LearningError> {
         let d = self.means.first().and_then(|means| means.first()).map_or(0, DVector::len);
         if frames.len() != self.means.len() || frames.iter().any(|frame| frame.dimension() + 1 != d) {
             let expected = format!("{} frames over {} columns", self.means.len(), d.saturating_sub(1));
             return Err(LearningError::Request(format!("{} frames are given, but the mixture was learned with {expected}", frames.len())));
         }
-        let components = (0..self.components()).map(|i| self.product_of(i, frames));
-        Ok(components.collect::<Result<Vec<_>, _>>()?.into_iter().unzip())
+        (0..self.components()).map(|i| self.product_of(i, frames)).collect()
     }
 
-    /// The regression over the phase input for new frames (P); errors as [`Self::product`].
+    /// The regression over the phase input for new frames (P).
     ///
     /// # Errors
     /// As [`Self::product`].
     pub fn regression(&self, frames: &[Frame]) -> Result<Gmr, LearningError> {
-        let (means, covariances) = self.product(frames)?;
+        let components = self.product(frames)?;
+        let means: Vec<DVector<f64>> = components.iter().map(|g| g.mean().clone()).collect();
+        let covariances: Vec<DMatrix<f64>> = components.iter().map(|g| g.covariance().clone()).collect();
         Gmr::new(&means, &covariances, 1)
     }
 
@@ -58,7 +60,7 @@ impl TpGmm {
         Ok(if rows.is_empty() { DMatrix::zeros(0, gmr.outputs()) } else { DMatrix::from_rows(&rows) })
     }
 
-    fn product_of(&self, component: usize, frames: &[Frame]) -> Result<(DVector<f64>, DMatrix<f64>), LearningError> {
+    fn product_of(&self, component: usize, frames: &[Frame]) -> Result<Gaussian, LearningError> {
         let not_definite = || LearningError::Model(format!("component {component}: a covariance is not positive definite"));
         let d = self.means[0][component].len();
         let (mut precision, mut weighted) = (DMatrix::zeros(d, d), DVector::zeros(d));
@@ -69,6 +71,6 @@ impl TpGmm {
             precision += inverse;
         }
         let factor = Cholesky::new(precision).ok_or_else(not_definite)?;
-        Ok((factor.solve(&weighted), factor.inverse()))
+        Ok(Gaussian::new(factor.solve(&weighted), factor.inverse())?)
     }
 }

@@ -19,9 +19,9 @@ pub struct TpGmmSettings {
     /// Smallest eigenvalue of a covariance whose columns are scaled to unit variance in their frame (-, 1e-8 to 0.1). Default 1e-5, as for
     /// the parametric model.
     pub covariance_floor: f64,
-    /// Starts by k-means (0 to 1000), beside the one by time slices. Default 0: frames in which movements end hardly vary, so the likelihood
-    /// prefers mixtures that spend their components there. Past an obstacle with the side told, k-means raised the likelihood and took the
-    /// clearance at a new width from 0.99 to 0.19 of 1 m.
+    /// Starts by k-means (0 to 1000), beside the one by time slices. Default 0: frames in which movements end hardly vary, so the
+    /// likelihood prefers mixtures that spend their components there. Past an obstacle with the side told, k-means raised the likelihood
+    /// and took the clearance at a new width from 0.99 to 0.19 of 1 m.
     pub kmeans_starts: u64,
     /// Most iterations (1 to 100000). Default 200.
     pub max_iterations: usize,
