@@ -129,19 +129,14 @@ fn something(value: f64) -> f64 {
     if value < NOTHING { 0.0 } else { value }
 }
 
-/// Appends `exp(x_i - max x)` over the states that can be there at all (`arriving > 0`), 0 for the others, and returns the shift. A state
-/// that nothing arrives at has `alpha = 0`, so nothing is lost, and most exponentials of a chain that is passed in order are saved. Without a
-/// finite maximum the row becomes not-a-number, which ends the scaled recursion.
+/// Appends `exp(x_i - max x)` of the states that can be there at all (`arriving > 0`), 0 for the others, and returns the shift. A state that
+/// nothing arrives at has `alpha = 0` whatever its density, and most exponentials of a chain that is passed in order are saved. The maximum
+/// is over all states, or what is lost would have no bound. A row of `-inf` becomes not-a-number, which ends the scaled recursion.
 fn push_shifted(log_row: &[f64], arriving: &[f64], b: &mut Vec<f64>) -> f64 {
     /// `ln 1e-290`.
     const NOTHING: f64 = -667.7;
-    let possible = log_row.iter().zip(arriving).filter(|(_, a)| **a > 0.0);
-    let shift = possible.map(|(x, _)| *x).fold(f64::NEG_INFINITY, f64::max);
-    let relative = |(x, a): (&f64, &f64)| if *a > 0.0 && x - shift >= NOTHING { (x - shift).exp() } else { 0.0 };
-    if shift.is_finite() {
-        b.extend(log_row.iter().zip(arriving).map(relative));
-    } else {
-        b.extend(log_row.iter().map(|_| f64::NAN));
-    }
+    let shift = log_row.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let relative = |(x, a): (&f64, &f64)| if *a == 0.0 || x - shift < NOTHING { 0.0 } else { (x - shift).exp() };
+    b.extend(log_row.iter().zip(arriving).map(relative));
     shift
 }
