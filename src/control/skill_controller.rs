@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{Command, Controller, Observation, PoseTracker, Telemetry, WrenchObserver};
-use crate::learning::{Skill, SkillExecution};
+use crate::learning::{Skill, SkillExecution, StepInput};
 
 /// Runs a [`SkillExecution`] whose motion columns begin with x, y, z of the tool in the base frame.
 pub struct SkillController {
@@ -46,7 +46,11 @@ impl Controller for SkillController {
         for (value, &place) in self.wrench.iter_mut().zip(&self.wrench_places) {
             *value = wrench[place];
         }
-        let state = if self.started { self.skill.step(self.step_s, &self.wrench, 1.0) } else { self.skill.state() };
+        let state = if self.started {
+            self.skill.step(&StepInput { wrench: &self.wrench, ..StepInput::of(self.step_s) })
+        } else {
+            self.skill.state()
+        };
         self.started = true;
         let place = Translation3::new(state.position[0], state.position[1], state.position[2]);
         let reference = Isometry3::from_parts(place, state.orientation.unwrap_or(self.orientation));

@@ -7,6 +7,9 @@
 //!
 //! Weights are formed from log densities, so a query far from every state is answered by the nearest one, never by 0/0. As in the
 //! paper, they use the inputs' marginals without priors.
+//!
+//! A movement asks with one input, the phase, many times a second: for that case the numbers of all components also lie one after the
+//! other in memory. Both ways do the same arithmetic in the same order.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -19,6 +22,8 @@ pub struct Gmr {
     inputs: usize,
     outputs: usize,
     components: Vec<Component>,
+    /// With one input, for each component: input mean, precision, log normaliser, then output mean and gain of every output.
+    line: Vec<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -44,7 +49,9 @@ impl Gmr {
         }
         let components = means.iter().zip(covariances).enumerate();
         let components = components.map(|(i, (mean, covariance))| Component::new(i, mean, covariance, inputs, d));
-        Ok(Self { inputs, outputs: d - inputs, components: components.collect::<Result<_, _>>()? })
+        let components = components.collect::<Result<Vec<_>, _>>()?;
+        let line = if inputs == 1 { components.iter().flat_map(Component::line).collect() } else { Vec::new() };
+        Ok(Self { inputs, outputs: d - inputs, components, line })
     }
 
     /// Number of components.
@@ -61,8 +68,15 @@ impl Gmr {
 
     /// Weights `h_i` (13) at the inputs `x`, written into `weights` (one per component).
     pub fn weights(&self, x: &[f64], weights: &mut [f64]) {
-        for (h, component) in weights.iter_mut().zip(&self.components) {
-            *h = component.log_density(x);
+        if let [x] = x {
+            for (h, numbers) in weights.iter_mut().zip(self.line.chunks_exact(LEAD + 2 * self.outputs)) {
+                let off = x - numbers[0];
+                *h = numbers[2] - 0.5 * (off * numbers[1] * off);
+            }
+        } else {
+            for (h, component) in weights.iter_mut().zip(&self.components) {
+                *h = component.log_density(x);
+            }
         }
         softmax_in_place(weights);
     }
@@ -70,6 +84,15 @@ impl Gmr {
     /// The expected outputs (14) for weights that [`Self::weights`] has formed, written into `outputs`.
     pub fn mean_into(&self, x: &[f64], weights: &[f64], outputs: &mut [f64]) {
         outputs.fill(0.0);
+        if let [x] = x {
+            for (numbers, h) in self.line.chunks_exact(LEAD + 2 * self.outputs).zip(weights) {
+                let off = x - numbers[0];
+                for (y, mean_and_gain) in outputs.iter_mut().zip(numbers[LEAD..].chunks_exact(2)) {
+                    *y += h * (mean_and_gain[0] + mean_and_gain[1] * off);
+                }
+            }
+            return;
+        }
         for (component, h) in self.components.iter().zip(weights) {
             for (row, y) in outputs.iter_mut().enumerate() {
                 *y += h * component.expected(x, row);
@@ -125,7 +148,16 @@ impl Gmr {
     }
 }
 
+/// Numbers of a component that stand before its outputs in [`Gmr::line`].
+const LEAD: usize = 3;
+
 impl Component {
+    /// The numbers of a component with one input, as [`Gmr::line`] has them.
+    fn line(&self) -> Vec<f64> {
+        let outputs = self.output_mean.iter().zip(self.gain.iter()).flat_map(|(mean, gain)| [*mean, *gain]);
+        [self.input_mean[0], self.precision[(0, 0)], self.log_normaliser].into_iter().chain(outputs).collect()
+    }
+
     fn new(index: usize, mean: &DVector<f64>, covariance: &DMatrix<f64>, inputs: usize, d: usize) -> Result<Self, LearningError> {
         let wrong = |what: &str| LearningError::Model(format!("state {index}: {what}"));
         if mean.len() != d || covariance.shape() != (d, d) {
@@ -195,6 +227,24 @@ mod tests {
         let y: Vec<DVector<f64>> = parts.iter().map(|g| g.conditional(&[0], &x).unwrap().mean().clone()).collect();
         let expected = (&y[0] * h[0] + &y[1] * h[1]) / (h[0] + h[1]);
         assert!((gmr.mean(&[0.4]) - expected).norm() < 1e-13);
+    }
+
+    #[test]
+    fn the_line_in_memory_answers_bit_for_bit_as_the_components_do() {
+        let (means, covariances) = mixture();
+        let gmr = Gmr::new(&means, &covariances, 1).unwrap();
+        for i in -20..40 {
+            let x = [0.05 * f64::from(i)];
+            let (mut h, mut y) = ([0.0; 2], [0.0; 2]);
+            gmr.weights(&x, &mut h);
+            gmr.mean_into(&x, &h, &mut y);
+            let mut slow: Vec<f64> = gmr.components.iter().map(|c| c.log_density(&x)).collect();
+            softmax_in_place(&mut slow);
+            assert_eq!(h.as_slice(), slow);
+            for (row, y) in y.iter().enumerate() {
+                assert_eq!(*y, gmr.components.iter().zip(h).map(|(c, h)| h * c.expected(&x, row)).sum::<f64>());
+            }
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Dataset ─learn→ Skill { motion model f(theta_m, s), force model F_des(theta_f, s), compliance beta_i, orientation, gripper }
-//! Skill ─SkillExecution::step(wrench)→ SkillState { position, velocity, orientation, gripper, expected wrench }
+//! Skill ─SkillExecution::step(StepInput)→ SkillState { position, velocity, orientation, gripper, expected wrench }
 //! ```
 //!
 //! Equation numbers are those of E. Ugur and H. Girgin, "Compliant Parametric Dynamic Movement Primitives", Robotica 38(3), 2020.
@@ -33,7 +33,9 @@ mod warnings;
 
 pub use ends::{EndRule, EndsReport};
 pub use error::{LearningError, SettingFault};
-pub use execution::{ExecutionSettings, SkillExecution, SkillState, TaskSpaceState, generate, task_space_states};
+pub use execution::{
+    ExecutionSettings, Measured, PhaseStopping, SkillExecution, SkillState, StepInput, TaskSpaceState, generate, task_space_states,
+};
 pub use features::{FeatureMap, Features, Standard};
 pub use gmr::Gmr;
 pub use gripper::GripperProfile;

@@ -1,16 +1,28 @@
-//! The orientation of the hand over the phase, averaged over all demonstrations.
+//! The orientation of the hand over the phase: rotation vectors about a reference, regressed over all demonstrations.
+//!
+//! ```text
+//! q(u, theta) = Q(u) exp(r(u, theta))        r(u, theta) = sum_i psi_i(u) (mean_i + W_i theta) / sum_i psi_i(u)
+//! ```
+//!
+//! `Q` is the mean orientation of all demonstrations, the same for every `u`, unless a demonstration turns half a turn or more away from
+//! it. Near a whole turn a rotation vector swings wildly while the hand hardly moves, so then `Q` moves too: along the mean path of the
+//! demonstrations, and `r` is only what they differ from it.
+//!
+//! In execution `r` is a primitive of its own (1) with the spring and phase of the position. Its forcing term (4) is that of `r(u, theta)`:
+//! with `' = d/du` and `omega tau = sqrt(K)`, `f = r + 2 r' / sqrt(K) + r'' / K - g + (g - x0) s`, exact since `r` has closed derivatives.
 
-use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3, Vector4};
 
 use super::parameters::mean_and_deviations;
-use crate::math::{exp_map, log_map, mean_quaternion, same_hemisphere, solve_normal_equations};
+use crate::math::{continuous_log, exp_map, mean_quaternion, same_hemisphere, solve_normal_equations};
 
-/// Rotation vectors about a mean orientation, smooth in the time fraction `u` and linear in the parameters:
-/// `q(u, theta) = reference * exp(sum_i psi_i(u) (mean_i + W_i theta) / sum_i psi_i(u))`.
+/// Rotation vectors about a reference, smooth in the time fraction `u` and linear in the parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrientationProfile {
     /// The mean orientation of all demonstrations.
     pub reference: UnitQuaternion<f64>,
+    /// The reference that moves, as quaternions x, y, z, w at the basis centres (m x 4; blended and normalised); `None` when it stands.
+    pub path: Option<DMatrix<f64>>,
     /// Rotation vectors (rad) at the `m` basis centres `i / (m - 1)`, at `theta = 0` (m x 3).
     pub mean: DMatrix<f64>,
     /// Their change with each parameter (p of m x 3).
@@ -28,6 +40,14 @@ impl OrientationProfile {
     /// Least squares over all samples with `basis` functions; `ridge` (demonstrations) holds the parameters' effect back.
     pub(super) fn fit(demonstrations: &[OrientationSample], basis: usize, ridge: f64) -> Self {
         let reference = mean_quaternion(demonstrations.iter().flat_map(|d| &d.orientations));
+        let rotations = |path: Option<&DMatrix<f64>>| -> Vec<Vec<Vector3<f64>>> {
+            demonstrations.iter().map(|d| rotation_vectors(d, &reference, path)).collect()
+        };
+        let (mut path, mut vectors) = (None, rotations(None));
+        if vectors.iter().flatten().any(|r| r.norm() >= std::f64::consts::PI) {
+            path = mean_path(demonstrations, basis);
+            vectors = rotations(path.as_ref());
+        }
         let k = demonstrations.len() as f64;
         let (mean_theta, deviations) = mean_and_deviations(&demonstrations.iter().map(|d| d.theta).collect::<Vec<_>>());
         let p = mean_theta.len();
@@ -38,13 +58,13 @@ impl OrientationProfile {
         let unknowns = basis * (1 + p);
         let (mut normal, mut moments) = (DMatrix::zeros(unknowns, unknowns), DMatrix::zeros(unknowns, 3));
         let mut psi = vec![0.0; basis];
-        for (d, deviation) in demonstrations.iter().zip(deviations.row_iter()) {
+        for ((d, vectors), deviation) in demonstrations.iter().zip(&vectors).zip(deviations.row_iter()) {
             let factors: Vec<f64> = std::iter::once(1.0).chain((0..p).map(|j| deviation[j] / spread[j])).collect();
-            for (u, r) in d.fractions.iter().zip(rotation_vectors(&reference, &d.orientations)) {
+            for (u, r) in d.fractions.iter().zip(vectors) {
                 activations(*u, &mut psi);
                 let row = DVector::from_fn(unknowns, |i, _| factors[i / basis] * psi[i % basis]);
                 normal.ger(1.0, &row, &row, 1.0);
-                moments += row * r.transpose();
+                moments.ger(1.0, &row, r, 1.0);
             }
         }
         for i in basis..unknowns {
@@ -58,7 +78,7 @@ impl OrientationProfile {
             mean -= &w * mean_theta[j];
             weights.push(w);
         }
-        Self { reference, mean, weights }
+        Self { reference, path, mean, weights }
     }
 
     /// The same profile for all values of so many parameters; this one has none.
@@ -73,33 +93,98 @@ impl OrientationProfile {
         for (w, value) in self.weights.iter().zip(theta.iter()) {
             mean += w * *value;
         }
-        Self { reference: self.reference, mean, weights: Vec::new() }
+        Self { reference: self.reference, path: self.path.clone(), mean, weights: Vec::new() }
     }
 
     /// The orientation at time fraction `u` (-; clamped to [0, 1]) with the parameters at zero. No allocation.
     #[must_use]
     pub fn orientation(&self, u: f64) -> UnitQuaternion<f64> {
-        let basis = self.mean.nrows();
-        let (mut sum, mut turn) = (0.0, Vector3::zeros());
-        for i in 0..basis {
-            let psi = activation(u.clamp(0.0, 1.0), i, basis);
-            sum += psi;
-            turn += Vector3::new(self.mean[(i, 0)], self.mean[(i, 1)], self.mean[(i, 2)]) * psi;
-        }
-        self.reference * exp_map(&(turn / sum))
+        self.frame(u).0 * exp_map(&self.turn(u)[0])
+    }
+
+    /// The rotation vector `r` (rad) and its first and second derivative by `u` (rad) at `u` (-; clamped to [0, 1]), with the
+    /// parameters at zero. No allocation.
+    #[must_use]
+    pub fn turn(&self, u: f64) -> [Vector3<f64>; 3] {
+        blend(&self.mean, u.clamp(0.0, 1.0)).map(|r| r.xyz())
+    }
+
+    /// The reference `Q` at time fraction `u` (-; at rest outside [0, 1]) and its angular velocity along its own axes, per unit of `u`
+    /// (rad). No allocation.
+    #[must_use]
+    pub fn frame(&self, u: f64) -> (UnitQuaternion<f64>, Vector3<f64>) {
+        let Some(path) = &self.path else { return (self.reference, Vector3::zeros()) };
+        let [b, slope, _] = blend(path, u.clamp(0.0, 1.0)).map(Quaternion::from_vector);
+        let turning = (b.conjugate() * slope).imag() * (2.0 / b.norm_squared());
+        (UnitQuaternion::new_normalize(b), if (0.0..1.0).contains(&u) { turning } else { Vector3::zeros() })
     }
 }
 
 /// Rotation vectors (rad) from the reference, continuous along the movement.
-fn rotation_vectors(reference: &UnitQuaternion<f64>, orientations: &[UnitQuaternion<f64>]) -> Vec<Vector3<f64>> {
-    let mut previous = UnitQuaternion::identity();
-    let mut vectors = Vec::with_capacity(orientations.len());
-    for q in orientations {
-        let turn = same_hemisphere(&(reference.inverse() * q), &previous);
-        vectors.push(log_map(&turn));
-        previous = turn;
+fn rotation_vectors(d: &OrientationSample, reference: &UnitQuaternion<f64>, path: Option<&DMatrix<f64>>) -> Vec<Vector3<f64>> {
+    let mut previous = Vector3::zeros();
+    let vector = |(u, q): (&f64, &UnitQuaternion<f64>)| {
+        let frame = path.map_or(*reference, |path| UnitQuaternion::from_quaternion(Quaternion::from_vector(blend(path, *u)[0])));
+        previous = continuous_log(&(frame.inverse() * q), &previous);
+        previous
+    };
+    d.fractions.iter().zip(&d.orientations).map(vector).collect()
+}
+
+/// Quaternions at the basis centres whose blend follows all demonstrations in the mean (m x 4); `None` when they differ so much, or turn
+/// so fast, that the mean is no orientation.
+fn mean_path(demonstrations: &[OrientationSample], basis: usize) -> Option<DMatrix<f64>> {
+    const LEAST_NORM: f64 = 0.5;
+    let first = continuous_signs(&demonstrations[0].orientations);
+    let (mut normal, mut moments) = (DMatrix::zeros(basis, basis), DMatrix::zeros(basis, 4));
+    let mut psi = vec![0.0; basis];
+    for d in demonstrations {
+        let path = continuous_signs(&d.orientations);
+        let beside = |u: &f64| first[((u * (first.len() - 1) as f64).round() as usize).min(first.len() - 1)];
+        let agreement: f64 = d.fractions.iter().zip(&path).map(|(u, q)| beside(u).dot(q)).sum();
+        for (u, q) in d.fractions.iter().zip(&path) {
+            activations(*u, &mut psi);
+            let row = DVector::from_column_slice(&psi);
+            normal.ger(1.0, &row, &row, 1.0);
+            moments.ger(agreement.signum(), &row, q, 1.0);
+        }
     }
-    vectors
+    let path = solve_normal_equations(&normal, &moments).solution;
+    (0..=4 * basis).all(|i| blend(&path, i as f64 / (4 * basis) as f64)[0].norm() > LEAST_NORM).then_some(path)
+}
+
+/// Quaternions with the signs that make them continuous.
+fn continuous_signs(orientations: &[UnitQuaternion<f64>]) -> Vec<Vector4<f64>> {
+    let mut previous = orientations.first().copied().unwrap_or_default();
+    let follow = |q: &UnitQuaternion<f64>| {
+        previous = same_hemisphere(q, &previous);
+        previous.coords
+    };
+    orientations.iter().map(follow).collect()
+}
+
+/// Centres farther than this many widths have no weight: exp(-40) beside at least exp(-1/8).
+const REACH: f64 = 9.0;
+
+/// `sum_i psi_i(u) row_i / sum_i psi_i(u)` of up to four columns, and its first and second derivative by `u`.
+fn blend(rows: &DMatrix<f64>, u: f64) -> [Vector4<f64>; 3] {
+    let (basis, columns) = rows.shape();
+    let c = (basis - 1) as f64;
+    let at = u * c;
+    let (from, to) = ((at - REACH).ceil().max(0.0) as usize, ((at + REACH).floor() as usize).min(basis - 1));
+    let (mut sum, mut total) = ([Vector4::zeros(); 3], [0.0; 3]);
+    for i in from..=to {
+        let z = at - i as f64;
+        let psi = (-0.5 * z * z).exp();
+        let row = Vector4::from_fn(|j, _| if j < columns { rows[(i, j)] } else { 0.0 });
+        for (n, factor) in [psi, -z * c * psi, (z * z - 1.0) * c * c * psi].into_iter().enumerate() {
+            sum[n] += row * factor;
+            total[n] += factor;
+        }
+    }
+    let value = sum[0] / total[0];
+    let slope = (sum[1] - value * total[1]) / total[0];
+    [value, slope, (sum[2] - slope * (2.0 * total[1]) - value * total[2]) / total[0]]
 }
 
 /// A Gaussian as wide as the distance between centres.

@@ -19,6 +19,6 @@ pub use gaussian::Gaussian;
 pub use least_squares::{LeastSquares, solve_normal_equations, solve_weighted};
 pub use log_domain::{log_sum_exp, softmax_in_place};
 pub use minimum_jerk::{MinimumJerk, minimum_jerk, smooth_step};
-pub use orientation::{exp_map, log_map, mean_quaternion, same_hemisphere, slerp};
+pub use orientation::{continuous_log, exp_map, log_map, mean_quaternion, right_jacobian, same_hemisphere, slerp};
 pub use random::{standard_normal, stream, uniform};
 pub use spectral::{clamp_eigenvalues, eigenvalue_range, symmetric_pseudo_inverse};

@@ -1,7 +1,9 @@
 //! A filled tree to the settings of learning and coupling.
 
 use super::tree::Node;
-use crate::learning::cpdmp::{ComplianceSettings, CouplingSettings, ForceConvention, Statistic, Switching, Threshold};
+use crate::learning::cpdmp::{
+    ComplianceSettings, CouplingMode, CouplingSettings, CouplingSpace, ForceConvention, Statistic, Switching, Threshold,
+};
 use crate::learning::dmp::PhaseInput;
 use crate::learning::phmm::{CovarianceMode, PhmmSettings, Topology};
 use crate::learning::selection::{StatesCriterion, StatesSearch};
@@ -76,5 +78,15 @@ pub(super) fn coupling(table: &Node) -> CouplingSettings {
         saturation_m: table.number("saturation_m"),
         convention: if table.text("convention") == "on_world" { ForceConvention::OnWorld } else { ForceConvention::OnRobot },
         switching,
+        mode: coupling_mode(table),
+        space: CouplingSpace::Task,
+    }
+}
+
+fn coupling_mode(table: &Node) -> CouplingMode {
+    match table.text("mode") {
+        "minimise_force_error" => CouplingMode::MinimiseForceError,
+        "per_state" => CouplingMode::PerState(table.numbers("beta")),
+        _ => CouplingMode::Comply,
     }
 }

@@ -288,6 +288,14 @@ const COUPLING: Shape = Shape::plain(&[
     Key::new("switching", Choice(&["smooth", "hard"]), "how the coupling goes on and off at the edges of a window")
         .or(Preset::Text("smooth")),
     Key::new("switching_ramp", Number(within("", 0.01, 100.0)), "length of the smooth edge, in units of 1/omega").or_number(1.0),
+    Key::new(
+        "mode",
+        Choice(&["comply", "minimise_force_error", "per_state"]),
+        "yield in the states that comply (19), meet the expected force everywhere (18), or as `beta` says",
+    )
+    .or(Preset::Text("comply")),
+    Key::new("beta", Vector(within("", -1.0, 1.0), AtLeast(0)), "beta of each state, -1, 0 or 1, in the mode `per_state`")
+        .or(Preset::Vector(&[])),
 ]);
 
 const EXECUTION: Shape = Shape::plain(&[

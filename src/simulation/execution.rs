@@ -84,10 +84,9 @@ pub(super) fn settings(setup: &Setup) -> ExecutionSettings {
     ExecutionSettings {
         theta_m: theta(&experiment.theta_m),
         theta_f: theta(&experiment.theta_f),
-        start: None,
-        goal: None,
         duration_s: experiment.execution.duration_s,
         coupling: experiment.execution.coupling.clone(),
+        ..Default::default()
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::learning::cpdmp::{CouplingSettings, ForceConvention, Switching};
 use cpdmp::learning::dmp::{Motion, TransformationSystem, forcing_target};
-use cpdmp::learning::{ExecutionSettings, LearningError, LearningSettings, Skill, SkillExecution, generate, learn};
+use cpdmp::learning::{ExecutionSettings, LearningError, LearningSettings, Skill, SkillExecution, StepInput, generate, learn};
 use cpdmp::math::{MinimumJerk, minimum_jerk, stream, uniform};
 
 fn skill() -> &'static Skill {
@@ -35,7 +35,7 @@ fn the_two_springs_together_are_equation_16() {
         let u = f64::from(i) * dt / execution.duration_s();
         let mut wrench = execution.state().expected_wrench.clone();
         wrench[0] += 1.0 + (0.7 * f64::from(i) * dt).sin();
-        let state = execution.step(dt, wrench.as_slice(), 1.0);
+        let state = execution.step(&StepInput { wrench: wrench.as_slice(), ..StepInput::of(dt) });
         let mut net = [[0.0; 3]; 3];
         for (part, net) in [0.0, 0.5, 1.0].iter().zip(&mut net) {
             shaping.net_forcing(u + part * dt / 28.0, &start, &goal, net);
@@ -80,7 +80,7 @@ fn no_force_signal_moves_the_hand_beyond_the_saturation_and_deviations_fade_as_f
         for i in 0..3100 {
             let mut wrench = execution.state().expected_wrench.clone();
             wrench[0] += adversary(kind, f64::from(i) * 0.01, &past, &mut random);
-            let state = execution.step(0.01, wrench.as_slice(), 1.0).clone();
+            let state = execution.step(&StepInput { wrench: wrench.as_slice(), ..StepInput::of(0.01) }).clone();
             let e = state.deviation[0];
             assert!(e.abs() <= 0.08 * (1.0 + 1e-12), "adversary {kind}: {e} m at {} s", state.time_s);
             let d = (state.u - end) * 28.0 - 0.01;
@@ -101,7 +101,7 @@ fn no_force_signal_moves_the_hand_beyond_the_saturation_and_deviations_fade_as_f
 fn the_expected_wrench_is_the_weight_of_the_toy_while_it_is_held() {
     let mut execution = SkillExecution::new(skill(), &settings(CouplingSettings::default())).unwrap();
     for i in 0..2800 {
-        let expected = execution.step(0.01, &[0.0; 3], 1.0).expected_wrench.clone();
+        let expected = execution.step(&StepInput { wrench: &[0.0; 3], ..StepInput::of(0.01) }).expected_wrench.clone();
         let held = (1450..2600).contains(&i);
         if held || i < 1200 {
             let truth = nalgebra::DVector::from_vec(vec![0.0, 0.0, if held { -1.5 } else { 0.0 }]);
@@ -115,21 +115,21 @@ fn waiting_keeps_the_path_and_a_push_goes_where_the_convention_says() {
     let mut fast = SkillExecution::new(skill(), &settings(CouplingSettings::default())).unwrap();
     let mut slow = fast.clone();
     for _ in 0..1400 {
-        fast.step(0.01, &[], 1.0);
-        slow.step(0.01, &[], 0.5);
-        slow.step(0.01, &[], 0.5);
+        fast.step(&StepInput::of(0.01));
+        slow.step(&StepInput { phase_rate: 0.5, ..StepInput::of(0.01) });
+        slow.step(&StepInput { phase_rate: 0.5, ..StepInput::of(0.01) });
     }
     assert!((&fast.state().position - &slow.state().position).norm() < 1e-5);
     assert!((&fast.state().velocity * 0.5 - &slow.state().velocity).norm() < 1e-5);
-    let held = slow.step(0.01, &[], 0.0).clone();
-    assert_eq!((held.u, held.velocity.norm()), (slow.step(0.01, &[], 0.0).u, 0.0));
+    let held = slow.step(&StepInput { phase_rate: 0.0, ..StepInput::of(0.01) }).clone();
+    assert_eq!((held.u, held.velocity.norm()), (slow.step(&StepInput { phase_rate: 0.0, ..StepInput::of(0.01) }).u, 0.0));
     for (convention, sign) in [(ForceConvention::OnRobot, 1.0), (ForceConvention::OnWorld, -1.0)] {
         let coupling = CouplingSettings { convention, ..coupled(Switching::Hard) };
         let mut execution = SkillExecution::new(skill(), &settings(coupling)).unwrap();
         for _ in 0..1300 {
             let mut wrench = execution.state().expected_wrench.clone();
             wrench[2] += 1.0;
-            execution.step(0.01, wrench.as_slice(), 1.0);
+            execution.step(&StepInput { wrench: wrench.as_slice(), ..StepInput::of(0.01) });
         }
         assert!((execution.state().deviation[2] - sign * 0.05).abs() < 1e-3);
     }
@@ -235,6 +235,6 @@ fn requests_that_make_no_sense_are_refused_by_name() {
     assert!(ask(|a| a.coupling.compliance_m_per_n = vec![0.1, 0.1]).contains("2 compliances"));
     assert!(ask(|a| a.coupling.saturation_m = f64::NAN).contains("saturation"));
     let mut execution = SkillExecution::new(skill(), &settings(coupled(Switching::Hard))).unwrap();
-    let state = execution.step(f64::NAN, &[f64::INFINITY], f64::NAN).clone();
+    let state = execution.step(&StepInput { wrench: &[f64::INFINITY], phase_rate: f64::NAN, ..StepInput::of(f64::NAN) }).clone();
     assert!(!state.wrench_valid && state.position.iter().chain(state.velocity.iter()).all(|x| x.is_finite()));
 }

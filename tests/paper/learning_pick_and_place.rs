@@ -6,7 +6,9 @@ use std::sync::OnceLock;
 
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::learning::cpdmp::{CouplingSettings, Statistic};
-use cpdmp::learning::{ExecutionSettings, Learned, LearningSettings, ShapingKind, SkillExecution, generate, learn, task_space_states};
+use cpdmp::learning::{
+    ExecutionSettings, Learned, LearningSettings, ShapingKind, SkillExecution, StepInput, generate, learn, task_space_states,
+};
 
 const DURATION_S: f64 = 28.0;
 const PICK_S: f64 = 13.0;
@@ -73,7 +75,7 @@ fn pushed(learned: &Learned, force: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     for i in 0..3080 {
         let mut wrench = execution.state().expected_wrench.clone();
         wrench[0] += force(f64::from(i) * 0.01);
-        let state = execution.step(0.01, wrench.as_slice(), 1.0);
+        let state = execution.step(&StepInput { wrench: wrench.as_slice(), ..StepInput::of(0.01) });
         path.push((state.position[0], state.deviation[0]));
     }
     path

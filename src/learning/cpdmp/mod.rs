@@ -17,7 +17,8 @@ mod shaping_function;
 
 pub(super) use compliance::state_spreads;
 pub use compliance::{Compliance, ComplianceSettings, Statistic, Threshold};
-pub use force_coupling::{CouplingSettings, ForceConvention, ForceCoupling, Switching};
+pub(crate) use force_coupling::JACOBIAN_ROWS;
+pub use force_coupling::{CouplingMode, CouplingSettings, CouplingSpace, ForceConvention, ForceCoupling, Switching, wrench_at_tool};
 pub use force_model::ForceModel;
 pub(super) use motion_model::spatial_columns;
 pub use motion_model::{MotionModel, Shaping};

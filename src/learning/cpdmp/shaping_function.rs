@@ -48,15 +48,20 @@ impl ShapingFunction {
         self.alpha
     }
 
-    /// `f(theta_m, s)` (d; unit of the columns) at time fraction `u`, ungated. A mixture is asked no further than `u = 1`.
-    pub fn forcing(&mut self, u: f64, forcing: &mut [f64]) {
+    /// `f(theta_m, s)` (d; unit of the columns) at time fraction `u`, ungated, and the most responsible state there (0 for the
+    /// baseline). A mixture is asked no further than `u = 1`.
+    pub fn forcing(&mut self, u: f64, forcing: &mut [f64]) -> usize {
         match &mut self.kind {
             Kind::Gmr { gmr, input, weights, .. } => {
                 let x = [input.at(u.clamp(0.0, 1.0), self.alpha)];
                 gmr.weights(&x, weights);
                 gmr.mean_into(&x, weights, forcing);
+                most_responsible(weights)
             }
-            Kind::Lwr(lwr) => lwr.forcing((-self.alpha * u).exp(), forcing),
+            Kind::Lwr(lwr) => {
+                lwr.forcing((-self.alpha * u).exp(), forcing);
+                0
+            }
         }
     }
 
@@ -83,12 +88,17 @@ impl ShapingFunction {
     pub fn active_state(&mut self, u: f64) -> usize {
         let Kind::Gmr { gmr, input, weights, .. } = &mut self.kind else { return 0 };
         gmr.weights(&[input.at(u.clamp(0.0, 1.0), self.alpha)], weights);
-        let mut best = 0;
-        for (i, h) in weights.iter().enumerate() {
-            if *h > weights[best] {
-                best = i;
-            }
-        }
-        best
+        most_responsible(weights)
     }
+}
+
+/// The first of the largest weights.
+fn most_responsible(weights: &[f64]) -> usize {
+    let mut best = 0;
+    for (i, h) in weights.iter().enumerate() {
+        if *h > weights[best] {
+            best = i;
+        }
+    }
+    best
 }

@@ -43,27 +43,34 @@ impl Lwr {
     /// `f(s)` of every degree of freedom, added into `forcing` (d) after it is set to zero. No allocation.
     pub fn forcing(&self, s: f64, forcing: &mut [f64]) {
         forcing.fill(0.0);
-        let mut total = 0.0;
+        let (mut total, largest) = (0.0, self.largest_exponent(s));
         for i in 0..self.centres.len() {
-            let psi = self.psi(i, s);
+            let psi = (self.exponent(i, s) - largest).exp();
             total += psi;
             for (f, w) in forcing.iter_mut().zip(self.weights.row(i).iter()) {
                 *f += psi * w;
             }
         }
-        let scale = if total > 0.0 { s / total } else { 0.0 };
-        forcing.iter_mut().for_each(|f| *f *= scale);
+        forcing.iter_mut().for_each(|f| *f *= s / total);
     }
 
     /// `s psi_i / sum_j psi_j` (m).
     fn activations(&self, s: f64) -> DVector<f64> {
-        let psi = DVector::from_fn(self.centres.len(), |i, _| self.psi(i, s));
+        let largest = self.largest_exponent(s);
+        let psi = DVector::from_fn(self.centres.len(), |i, _| (self.exponent(i, s) - largest).exp());
         let total = psi.sum();
-        if total > 0.0 { psi * (s / total) } else { psi }
+        psi * (s / total)
     }
 
-    fn psi(&self, i: usize, s: f64) -> f64 {
-        (-self.widths[i] * (s - self.centres[i]).powi(2)).exp()
+    /// `ln psi_i(s)`.
+    fn exponent(&self, i: usize, s: f64) -> f64 {
+        -self.widths[i] * (s - self.centres[i]).powi(2)
+    }
+
+    /// The largest `ln psi_i(s)`: taken out of the ratio, it keeps many narrow functions from vanishing all at once (their `h_i` reach
+    /// 1e7), which would be 0/0 between and beyond the centres.
+    fn largest_exponent(&self, s: f64) -> f64 {
+        (0..self.centres.len()).map(|i| self.exponent(i, s)).fold(f64::NEG_INFINITY, f64::max)
     }
 }
 
@@ -85,5 +92,36 @@ mod tests {
         }
         lwr.forcing(1e-9, &mut f);
         assert!(f[0].abs() < 1e-6);
+    }
+
+    /// The regression (5)-(10) written down once more, solved by the singular values of nalgebra: at (9), `w` minimises the squared error
+    /// over all samples of all demonstrations; with fewer samples than functions the smallest such `w`.
+    #[test]
+    fn weights_are_those_of_an_independent_dense_solution() {
+        let alpha = 100f64.ln();
+        for (samples, basis) in [(300, 10), (300, 100), (60, 250), (40, 100), (1, 3), (5, 1)] {
+            let s = |t: usize| (-alpha * t as f64 / (samples.max(2) - 1) as f64).exp();
+            let targets = DMatrix::from_fn(samples, 2, |t, j| s(t) * ((3.0 + j as f64) * s(t).ln()).sin() + 0.1);
+            let phases: Vec<f64> = (0..samples).map(s).collect();
+            let lwr = Lwr::fit(&phases, &targets, basis, alpha).unwrap();
+            let (c, m) = (|i: usize| 10f64.powf(-2.0 * i as f64 / (basis.max(2) - 1) as f64), basis as f64);
+            let exponent = |s: f64, i: usize| -(m / c(i).powi(2)) * (s - c(i)).powi(2);
+            let row = |s: f64| {
+                let top = (0..basis).map(|i| exponent(s, i)).fold(f64::MIN, f64::max);
+                let psi = DVector::from_fn(basis, |i, _| (exponent(s, i) - top).exp());
+                &psi * (s / psi.sum())
+            };
+            let design = DMatrix::from_fn(samples, basis, |t, i| row(s(t))[i]);
+            let dense = design.clone().svd(true, true).solve(&targets, 1e-12).unwrap();
+            let (own, other) = ((&design * &lwr.weights - &targets).norm(), (&design * dense - &targets).norm());
+            assert!(own <= other + 1e-7, "{samples} samples, {basis} functions: residual {own}, dense {other}");
+            let mut f = [0.0; 2];
+            for u in [0.0, 0.31, 0.77, 1.0, 1.4, 100.0] {
+                lwr.forcing((-alpha * u).exp(), &mut f);
+                let direct = row((-alpha * u).exp()).transpose() * &lwr.weights;
+                assert!(f.iter().all(|f| f.is_finite()));
+                assert!((f[0] - direct[0]).abs() < 1e-9 * (1.0 + lwr.weights.amax()), "u = {u}");
+            }
+        }
     }
 }

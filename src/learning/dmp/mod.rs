@@ -18,4 +18,4 @@ mod transformation_system;
 pub use canonical_system::{CanonicalSystem, DEFAULT_ALPHA, PhaseInput};
 pub use forcing_target::forcing_target;
 pub use lwr::Lwr;
-pub use transformation_system::{Motion, TransformationSystem};
+pub use transformation_system::{Integrator, Motion, TransformationSystem};

@@ -10,11 +10,25 @@ pub struct Motion {
     pub velocity: f64,
 }
 
+/// How the springs of a movement are integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Integrator {
+    /// The exact solution for a forcing that is held over the step, at its value in the middle: second order, stable for every step.
+    #[default]
+    ExactHold,
+    /// The classical Runge-Kutta method: fourth order where the forcing is smooth. A step longer than `2 / omega`, close to its limit of
+    /// `2.79 / omega`, is held exactly instead.
+    RungeKutta4,
+}
+
 /// The critically damped spring `tau vdot = K (c - x) - 2 sqrt(K) v`, `tau xdot = v`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransformationSystem {
     omega: f64,
 }
+
+/// The longest step that is left to Runge-Kutta, in units of `1 / omega` (-).
+const LONGEST_STEP: f64 = 2.0;
 
 impl TransformationSystem {
     /// From `stiffness` (`K`, -, > 0) and `duration_s` (`tau`, s, > 0).
@@ -45,6 +59,15 @@ impl TransformationSystem {
         let b = motion.velocity + self.omega * e;
         let decay = (-self.omega * dt_s).exp();
         Motion { position: c + (e + b * dt_s) * decay, velocity: (motion.velocity - self.omega * b * dt_s) * decay }
+    }
+
+    /// The state after `dt_s` (s), with `c` at the step's start, middle and end.
+    #[must_use]
+    pub fn step(&self, integrator: Integrator, motion: Motion, c: [f64; 3], dt_s: f64) -> Motion {
+        match integrator {
+            Integrator::RungeKutta4 if self.omega * dt_s <= LONGEST_STEP => self.runge_kutta(motion, c, dt_s),
+            _ => self.hold(motion, c[1], dt_s),
+        }
     }
 
     /// One classical Runge-Kutta step of `dt_s` (s), with `c` at the step's start, middle and end: fourth order, stable below

@@ -1,6 +1,8 @@
 //! How forces enter an execution: which wrench is expected, where the movement yields, and how strongly.
 
-use crate::learning::cpdmp::{ComplianceWindow, CouplingSettings, ForceCoupling, Switching};
+use crate::learning::cpdmp::{
+    ComplianceWindow, CouplingMode, CouplingSettings, CouplingSpace, ForceCoupling, JACOBIAN_ROWS, Segment, Switching, compliance_windows,
+};
 use crate::learning::dmp::PhaseInput;
 use crate::learning::{ExecutionSettings, Gmr, LearningError, Skill};
 use crate::math::smooth_step;
@@ -18,6 +20,8 @@ pub(super) struct ExpectedWrench {
 pub(super) struct Coupling {
     law: ForceCoupling,
     beta: Vec<f64>,
+    /// `beta` of a model without states: 1 to minimise the force error, else 0.
+    uniform: f64,
     windows: Vec<ComplianceWindow>,
     /// Length of the ramps at the windows' edges, as a fraction of the duration; 0 for none.
     ramp: f64,
@@ -57,21 +61,19 @@ impl Coupling {
         &self.windows
     }
 
-    pub(super) fn new(
-        settings: &CouplingSettings,
-        skill: &Skill,
-        wrench: &[String],
-        windows: Vec<ComplianceWindow>,
-    ) -> Result<Self, LearningError> {
+    pub(super) fn new(settings: &CouplingSettings, skill: &Skill, wrench: &[String], segments: &[Segment]) -> Result<Self, LearningError> {
         let ramp = match settings.switching {
             Switching::Hard => 0.0,
             // 1 / (omega tau) = 1 / sqrt(K).
             Switching::Smooth(times) => times / skill.motion.stiffness.sqrt(),
         };
+        let beta = settings.beta(&skill.compliance.beta)?;
+        let always = settings.mode == CouplingMode::MinimiseForceError;
         Ok(Self {
             law: ForceCoupling::new(settings, &skill.motion.columns, wrench)?,
-            beta: skill.compliance.beta.clone(),
-            windows,
+            uniform: if always { 1.0 } else { 0.0 },
+            windows: if always { vec![ComplianceWindow { start: 0.0, end: 1.0 }] } else { compliance_windows(segments, &beta) },
+            beta,
             ramp,
             fade_start: skill.motion.gate_start,
         })
@@ -80,7 +82,7 @@ impl Coupling {
     /// `beta` of the active state and the activation `b` at time fraction `u`. `b` ramps inside the window, so that outside it nothing
     /// acts, and fades to 0 towards `u = 1`, so that the goal is reached.
     pub(super) fn strength(&self, u: f64, state: usize) -> (f64, f64) {
-        let beta = self.beta.get(state).copied().unwrap_or(0.0);
+        let beta = self.beta.get(state).copied().unwrap_or(self.uniform);
         let Some(window) = self.windows.iter().find(|w| (w.start..w.end).contains(&u)) else { return (beta, 0.0) };
         let ramp = self.ramp.min(0.5 * (window.end - window.start));
         let inside = if ramp > 0.0 {
@@ -93,9 +95,12 @@ impl Coupling {
 }
 
 /// The columns of the wrench that a skill takes.
-pub(super) fn wrench_columns(skill: &Skill) -> Vec<String> {
-    match &skill.force {
-        Some(force) => force.columns.clone(),
-        None => skill.motion.columns.iter().map(|c| c.strip_suffix("_m").map_or_else(|| c.clone(), |name| format!("f{name}_n"))).collect(),
+pub(super) fn wrench_columns(skill: &Skill, settings: &CouplingSettings) -> Vec<String> {
+    if let Some(force) = &skill.force {
+        return force.columns.clone();
     }
+    if settings.enabled && settings.space != CouplingSpace::Task {
+        return JACOBIAN_ROWS.map(str::to_owned).to_vec();
+    }
+    skill.motion.columns.iter().map(|c| c.strip_suffix("_m").map_or_else(|| c.clone(), |name| format!("f{name}_n"))).collect()
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{ExecutionSettings, SkillExecution};
+use super::{ExecutionSettings, SkillExecution, StepInput};
 use crate::demonstration::{GRIPPER_COLUMN, QUATERNION_COLUMNS, Trajectory};
 use crate::learning::cpdmp::{CouplingSettings, segments};
 use crate::learning::{LearningError, Skill};
@@ -34,7 +34,7 @@ pub fn generate(skill: &Skill, settings: &ExecutionSettings, dt_s: f64, until: f
     let samples = steps as usize + 1;
     let mut cells = Vec::with_capacity(samples * columns.len());
     for i in 0..samples {
-        let state = if i == 0 { execution.state() } else { execution.step(dt, &[], 1.0) };
+        let state = if i == 0 { execution.state() } else { execution.step(&StepInput::of(dt)) };
         cells.extend(state.position.iter());
         cells.extend(state.orientation.iter().flat_map(|q| q.coords.iter()));
         cells.extend(state.gripper.map(|g| g.clamp(0.0, 1.0)));
@@ -73,7 +73,7 @@ pub fn task_space_states(skill: &Skill, settings: &ExecutionSettings) -> Result<
     let mut execution = free(skill, settings)?;
     let dt = execution.duration_s() / STEPS as f64;
     let mut path = vec![execution.state().position.clone()];
-    path.extend((0..STEPS).map(|_| execution.step(dt, &[], 1.0).position.clone()));
+    path.extend((0..STEPS).map(|_| execution.step(&StepInput::of(dt)).position.clone()));
     let mut shaping = skill.motion.shaping_at(&skill.request(settings)?.theta)?;
     let segments = segments(&mut shaping);
     let Some((gmr, input)) = shaping.mixture() else { return Ok(Vec::new()) };

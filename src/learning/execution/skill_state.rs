@@ -1,6 +1,6 @@
 //! What a control loop learns from each step of a skill.
 
-use nalgebra::{DVector, UnitQuaternion};
+use nalgebra::{DVector, UnitQuaternion, Vector3};
 
 /// Where a skill is. Motion, phase, orientation and gripper at the end of the step; what decided about forces as it was during it.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,11 +21,13 @@ pub struct SkillState {
     pub deviation: DVector<f64>,
     /// Orientation, when the skill has one.
     pub orientation: Option<UnitQuaternion<f64>>,
+    /// Angular velocity (rad/s, base axes), when the skill has an orientation.
+    pub angular_velocity: Option<Vector3<f64>>,
     /// Opening of the gripper (0 closed, 1 open), when the skill has one.
     pub gripper: Option<f64>,
     /// The most responsible state of the motion model; 0 for the baseline.
     pub state: usize,
-    /// `beta` of that state: -1 complies, 0 is stiff.
+    /// `beta` of that state: -1 complies, 0 is stiff, 1 minimises the force error.
     pub beta: f64,
     /// `b` (-, 0 to 1): how far the coupling is switched on.
     pub activation: f64,
@@ -37,6 +39,8 @@ pub struct SkillState {
     pub forcing: DVector<f64>,
     /// Whether the last wrench had the right length and was finite. What is not finite does not act.
     pub wrench_valid: bool,
+    /// Whether the last step went on from a measured state.
+    pub measured_used: bool,
 }
 
 impl SkillState {
@@ -52,6 +56,7 @@ impl SkillState {
             acceleration: zero.clone(),
             deviation: zero.clone(),
             orientation: None,
+            angular_velocity: None,
             gripper: None,
             state: 0,
             beta: 0.0,
@@ -60,6 +65,7 @@ impl SkillState {
             expected_wrench: DVector::zeros(wrench),
             forcing: zero,
             wrench_valid: true,
+            measured_used: false,
         }
     }
 }

@@ -123,6 +123,11 @@ impl Skill {
             let shape = (o.mean.nrows(), 3);
             let shaped = shape.0 >= 2 && o.mean.shape() == shape && o.weights.len() == p && o.weights.iter().all(|w| w.shape() == shape);
             let numbers = o.mean.iter().chain(o.weights.iter().flat_map(|w| w.iter()));
+            let path = o.path.iter().flat_map(|path| path.iter());
+            let path_shaped = o.path.as_ref().is_none_or(|path| path.shape() == (shape.0, 4));
+            if !path_shaped || !finite(path) {
+                return wrong("orientation.reference_path is not a finite quaternion for every row of orientation.mean");
+            }
             if !shaped || !finite(numbers) || !finite(o.reference.coords.iter()) {
                 return wrong("orientation is not a profile of finite rotation vectors for the motion's parameters");
             }

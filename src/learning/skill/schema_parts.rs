@@ -58,6 +58,9 @@ pub(super) struct ComplianceFile {
 #[derive(Serialize, Deserialize)]
 pub(super) struct OrientationFile {
     reference: [f64; 4],
+    /// Absent where the reference stands, and in files of programs that know no other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    reference_path: Option<Rows>,
     mean: Rows,
     weights: Vec<Rows>,
 }
@@ -193,7 +196,12 @@ impl ComplianceFile {
 
 impl OrientationFile {
     pub(super) fn of(o: &OrientationProfile) -> Self {
-        Self { reference: o.reference.coords.into(), mean: rows(&o.mean), weights: o.weights.iter().map(rows).collect() }
+        Self {
+            reference: o.reference.coords.into(),
+            reference_path: o.path.as_ref().map(rows),
+            mean: rows(&o.mean),
+            weights: o.weights.iter().map(rows).collect(),
+        }
     }
 
     pub(super) fn into_profile(self) -> Result<OrientationProfile, LearningError> {
@@ -204,6 +212,7 @@ impl OrientationFile {
         let weights = self.weights.iter().enumerate().map(|(j, w)| matrix(&format!("orientation.weights[{j}]"), w, 3));
         Ok(OrientationProfile {
             reference: UnitQuaternion::new_unchecked(q),
+            path: self.reference_path.map(|path| matrix("orientation.reference_path", &path, 4)).transpose()?,
             mean: matrix("orientation.mean", &self.mean, 3)?,
             weights: weights.collect::<Result<_, _>>()?,
         })
