@@ -12,8 +12,8 @@ use super::generate_request::request;
 use super::learn::read_skill;
 use super::learning_args::Generate;
 use super::terminal::Terminal;
-use crate::demonstration::{Trajectory, write_trajectory};
-use crate::learning::{ExecutionSettings, LearningError, Skill, generate as generated};
+use crate::demonstration::{Trajectory, read_trajectory, write_trajectory};
+use crate::learning::{ExecutionSettings, InferenceSettings, LearningError, Skill, generate as generated, infer};
 use crate::report::{Outcome, Replaceable, prepare_file};
 
 /// A movement and what was asked for.
@@ -40,7 +40,7 @@ struct Movement {
 
 /// Generates a movement to stdout or a file.
 pub(super) fn generate(arguments: &Generate, global: &Global, terminal: &Terminal) -> Outcome {
-    match moved(arguments, global.out.as_deref(), terminal.format) {
+    match moved(arguments, global.out.as_deref(), terminal) {
         Ok((movement, csv)) => {
             movement.warnings.iter().for_each(|warning| terminal.note(&format!("warning: {warning}\n")));
             match (terminal.format, &movement.written) {
@@ -54,16 +54,18 @@ pub(super) fn generate(arguments: &Generate, global: &Global, terminal: &Termina
     }
 }
 
-fn moved(arguments: &Generate, out: Option<&Path>, format: Format) -> Result<(Movement, String), Failure> {
+fn moved(arguments: &Generate, out: Option<&Path>, terminal: &Terminal) -> Result<(Movement, String), Failure> {
     if let Some(out) = out {
         let known = out.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv") || e.eq_ignore_ascii_case("parquet"));
         if !known {
-            let message = format!("--out {}: expected a file that ends in .csv or .parquet", out.display());
+            let message = terminal.format!("--out {}: expected a file that ends in .csv or .parquet", out.display());
             return Err(Failure::new(Outcome::Usage, [message]));
         }
         prepare_file(out, Replaceable::Samples)?;
     }
     let mut skill = read_skill(&arguments.skill)?;
+    let observed_from = arguments.observe.as_deref().unwrap_or(&arguments.skill);
+    let arguments = &observed(arguments, &skill, terminal).map_err(|error| Failure::of_learning(observed_from, &error))?;
     let settings = request(arguments, &skill).map_err(|slips| Failure::new(Outcome::Usage, slips))?;
     if !arguments.expected_wrench {
         // Its parameters need not be given.
@@ -73,7 +75,7 @@ fn moved(arguments: &Generate, out: Option<&Path>, format: Format) -> Result<(Mo
     let asked = skill.request(&settings).map_err(failed)?;
     let ratio = skill.motion.parameters.extrapolation(&asked.theta);
     if let Some(most) = arguments.deny_extrapolation.filter(|most| ratio > *most) {
-        let message = format!("{}: more than the {most} that --deny-extrapolation allows", beyond(ratio));
+        let message = terminal.format!("{}: more than the {most} that --deny-extrapolation allows", beyond(ratio));
         return Err(Failure::new(Outcome::CriteriaNotMet, [message]));
     }
     let trajectory = samples(&skill, &settings, arguments).map_err(failed)?;
@@ -82,7 +84,7 @@ fn moved(arguments: &Generate, out: Option<&Path>, format: Format) -> Result<(Mo
     }
     let csv = if out.is_none() { trajectory.to_csv() } else { String::new() };
     let names = skill.motion.parameters.names.iter().cloned();
-    let in_json = format == Format::Json && out.is_none();
+    let in_json = terminal.format == Format::Json && out.is_none();
     let row = |t: usize| std::iter::once(trajectory.times_s()[t]).chain(trajectory.values().row(t).iter().copied()).collect();
     let movement = Movement {
         schema_version: 1,
@@ -108,6 +110,22 @@ fn beyond(ratio: f64) -> String {
     } else {
         "a parameter lies outside what was demonstrated, where it never varied".to_owned()
     }
+}
+
+/// The arguments with the parameters that the observed part of a movement shows, each of which `--theta` may replace.
+fn observed(arguments: &Generate, skill: &Skill, terminal: &Terminal) -> Result<Generate, LearningError> {
+    let mut arguments = arguments.clone();
+    let Some(path) = &arguments.observe else { return Ok(arguments) };
+    let settings = InferenceSettings { duration_s: arguments.duration, ..InferenceSettings::default() };
+    let inference = infer(skill, &read_trajectory(path)?, &settings)?;
+    for (j, (name, value)) in inference.theta.iter().enumerate() {
+        let deviation = inference.covariance[(j, j)].max(0.0).sqrt();
+        terminal.note(&format!("inferred {name} = {value:.4} +- {deviation:.4} from {}\n", path.display()));
+        if !arguments.theta.iter().any(|given| given.split('=').next().is_some_and(|given| given.trim() == name)) {
+            arguments.theta.push(format!("{name}={value:?}"));
+        }
+    }
+    Ok(arguments)
 }
 
 /// The movement, with the columns that were asked for beside it.

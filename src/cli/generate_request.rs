@@ -1,6 +1,7 @@
 //! What `cpdmp generate` is asked for, by name: every slip of the command line at once.
 
-use super::learning_args::Generate;
+use super::learning_args::{Generate, Method};
+use crate::learning::dmp::Integrator;
 use crate::learning::{ExecutionSettings, ParameterSpace, Skill};
 use crate::scenario::did_you_mean;
 
@@ -52,7 +53,11 @@ pub(super) fn request(arguments: &Generate, skill: &Skill) -> Result<ExecutionSe
         (!named.is_empty()).then(|| motion.columns.iter().zip(learned).map(value).collect::<Vec<f64>>())
     };
     let (start, goal) = (filled(&start, &learned.0), filled(&goal, &learned.1));
-    Ok(ExecutionSettings { theta_m, theta_f, start, goal, duration_s: arguments.duration, ..ExecutionSettings::default() })
+    let integrator = match arguments.integrator {
+        Method::Hold => Integrator::ExactHold,
+        Method::Rk4 => Integrator::RungeKutta4,
+    };
+    Ok(ExecutionSettings { theta_m, theta_f, start, goal, duration_s: arguments.duration, integrator, ..ExecutionSettings::default() })
 }
 
 /// Start and goal at these parameters; those that are read off the movement stand in the middle of what was demonstrated.

@@ -68,6 +68,7 @@ fn settings(arguments: &Learn, global: &Global) -> Result<(LearningSettings, Vec
         ("--states", "motion.states", &arguments.states),
         ("--force-states", "force.states", &arguments.force_states),
         ("--stiffness", "stiffness", &arguments.stiffness),
+        ("--features", "motion.features", &arguments.features),
         ("--ridge", "motion.ridge", &arguments.ridge),
         ("--ridge", "force.ridge", &arguments.ridge),
         ("--max-iterations", "motion.max_iterations", &arguments.max_iterations),

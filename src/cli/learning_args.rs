@@ -24,6 +24,9 @@ pub(super) struct Learn {
     /// predicts best what is left out
     #[arg(long, value_name = "X")]
     pub ridge: Option<String>,
+    /// What the motion model sees of the parameters: linear, quadratic or rbf
+    #[arg(long, value_name = "KIND")]
+    pub features: Option<String>,
     /// Take the motion parameters from the demonstrations themselves, whatever the dataset says
     #[arg(long, value_enum, value_name = "SOURCE")]
     pub theta: Option<Theta>,
@@ -73,8 +76,17 @@ pub(super) enum Theta {
     StartRelativeToGoal,
 }
 
+/// How the movement is integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Method {
+    /// The exact solution for a forcing held over the step: second order, stable for every step.
+    Hold,
+    /// Runge-Kutta: fourth order where the forcing is smooth.
+    Rk4,
+}
+
 /// What to generate.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(after_long_help = GENERATE_EXAMPLES)]
 pub(super) struct Generate {
     /// The skill
@@ -98,6 +110,12 @@ pub(super) struct Generate {
     /// Where to stop, in durations: 1.2 also shows the movement settle
     #[arg(long, value_name = "X", default_value_t = 1.0, allow_hyphen_values = true)]
     pub until: f64,
+    /// How to integrate
+    #[arg(long, value_enum, default_value = "hold", value_name = "METHOD")]
+    pub integrator: Method,
+    /// Infer the motion's parameters from the first part of a movement, in a CSV or Parquet file; --theta wins
+    #[arg(long, value_name = "FILE")]
+    pub observe: Option<PathBuf>,
     /// Also write the wrench that the force model expects
     #[arg(long)]
     pub expected_wrench: bool,
@@ -133,6 +151,7 @@ Examples:
   cpdmp generate skill.json --theta height_m=0.2 --start x_m=0.1 --duration 5 --out path.csv
   cpdmp generate skill.json --theta height_m=0.2 --covariance --until 1.2 --dt 0.02
   cpdmp generate skill.json --theta height_m=0.2 --deny-extrapolation 0.5
+  cpdmp generate skill.json --observe beginning.csv --out rest.csv
 
 Without --out the samples go to stdout as CSV.";
 
