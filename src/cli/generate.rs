@@ -58,7 +58,7 @@ fn moved(arguments: &Generate, out: Option<&Path>, terminal: &Terminal) -> Resul
     if let Some(out) = out {
         let known = out.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv") || e.eq_ignore_ascii_case("parquet"));
         if !known {
-            let message = terminal.format!("--out {}: expected a file that ends in .csv or .parquet", out.display());
+            let message = format!("--out {}: expected a file that ends in .csv or .parquet", out.display());
             return Err(Failure::new(Outcome::Usage, [message]));
         }
         prepare_file(out, Replaceable::Samples)?;
@@ -75,7 +75,7 @@ fn moved(arguments: &Generate, out: Option<&Path>, terminal: &Terminal) -> Resul
     let asked = skill.request(&settings).map_err(failed)?;
     let ratio = skill.motion.parameters.extrapolation(&asked.theta);
     if let Some(most) = arguments.deny_extrapolation.filter(|most| ratio > *most) {
-        let message = terminal.format!("{}: more than the {most} that --deny-extrapolation allows", beyond(ratio));
+        let message = format!("{}: more than the {most} that --deny-extrapolation allows", beyond(ratio));
         return Err(Failure::new(Outcome::CriteriaNotMet, [message]));
     }
     let trajectory = samples(&skill, &settings, arguments).map_err(failed)?;

@@ -16,7 +16,7 @@ pub(super) fn planar(scenario: &Node) -> PlanarRun {
         name: scenario.text("name").to_owned(),
         seed: scenario.count("seed"),
         plan: match table.text("kind") {
-            "two_sided_obstacle" => PlanarPlan::TwoSidedObstacle(two_sided(&table, learning)),
+            "two_sided_obstacle" => PlanarPlan::TwoSidedObstacle(Box::new(two_sided(&table, learning))),
             _ => PlanarPlan::ObstacleAvoidance(obstacle_avoidance(&table, learning)),
         },
     }

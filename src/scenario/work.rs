@@ -33,7 +33,7 @@ pub enum PlanarPlan {
     /// Section 4.1 of the paper.
     ObstacleAvoidance(ObstacleAvoidanceSettings),
     /// Section 4.2 of the paper.
-    TwoSidedObstacle(TwoSidedObstacleSettings),
+    TwoSidedObstacle(Box<TwoSidedObstacleSettings>),
 }
 
 impl Work {
