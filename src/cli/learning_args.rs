@@ -151,7 +151,6 @@ Examples:
   cpdmp generate skill.json --theta height_m=0.2 --start x_m=0.1 --duration 5 --out path.csv
   cpdmp generate skill.json --theta height_m=0.2 --covariance --until 1.2 --dt 0.02
   cpdmp generate skill.json --theta height_m=0.2 --deny-extrapolation 0.5
-  cpdmp generate skill.json --observe beginning.csv --out rest.csv
 
 Without --out the samples go to stdout as CSV.";
 

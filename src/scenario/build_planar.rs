@@ -17,7 +17,7 @@ pub(super) fn planar(scenario: &Node) -> PlanarRun {
         seed: scenario.count("seed"),
         plan: match table.text("kind") {
             "two_sided_obstacle" => PlanarPlan::TwoSidedObstacle(Box::new(two_sided(&table, learning))),
-            _ => PlanarPlan::ObstacleAvoidance(obstacle_avoidance(&table, learning)),
+            _ => PlanarPlan::ObstacleAvoidance(Box::new(obstacle_avoidance(&table, learning))),
         },
     }
 }

@@ -31,7 +31,7 @@ pub struct PlanarRun {
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlanarPlan {
     /// Section 4.1 of the paper.
-    ObstacleAvoidance(ObstacleAvoidanceSettings),
+    ObstacleAvoidance(Box<ObstacleAvoidanceSettings>),
     /// Section 4.2 of the paper.
     TwoSidedObstacle(Box<TwoSidedObstacleSettings>),
 }
