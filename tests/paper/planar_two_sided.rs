@@ -55,6 +55,8 @@ fn told_the_side_cpdmp_keeps_most_of_the_clearance_and_tp_gmm_all_of_it() {
 fn not_told_the_side_chains_pass_on_both_and_nothing_else_does() {
     let mut eight = TwoSidedObstacleSettings::default();
     eight.learning_without_side.motion.states = 8;
+    // What is told the side is not looked at here.
+    (eight.learning.motion.states, eight.learning.motion.max_iterations) = (2, 5);
     for (states, outcomes) in [(8, &outcomes(&eight)), (9, &*DEFAULT)] {
         let two = outcomes.iter().filter(|o| o.transitions.as_ref().unwrap().chains.len() == 2).count();
         assert!(two >= 18, "N = {states}: two chains in {two} of 20 data sets");
