@@ -274,9 +274,9 @@ def reference_path(content, until):
 
 def compare_roll_outs(cpdmp, folder, seed):
     data = arm_like_dataset(folder, np.random.default_rng(seed + 300))
-    for name, flags in [("CPDMP", []), ("LWR-DMP", ["--baseline"])]:
+    for name, flags in [("CPDMP", ["--states", 8]), ("LWR-DMP", ["--baseline"])]:
         skill = folder / f"{name}.json"
-        cpdmp("learn", data, "--out", skill, "--states", 8, *flags)
+        cpdmp("learn", data, "--out", skill, *flags)
         content = json.loads(skill.read_text())
         tau = content["motion"]["duration_s"]
         truth = reference_path(content, 1.0)
