@@ -6,7 +6,7 @@
 //!
 //! `Q` is the mean orientation of all demonstrations, the same for every `u`, unless a demonstration turns half a turn or more away from
 //! it. Near a whole turn a rotation vector swings wildly while the hand hardly moves, so then `Q` moves too: along the mean path of the
-//! demonstrations, and `r` is only what they differ from it.
+//! demonstrations, coming to rest softly at its end, and `r` is only what they differ from it.
 //!
 //! In execution `r` is a primitive of its own (1) with the spring and phase of the position. Its forcing term (4) is that of `r(u, theta)`:
 //! with `' = d/du` and `omega tau = sqrt(K)`, `f = r + 2 r' / sqrt(K) + r'' / K - g + (g - x0) s`, exact since `r` has closed derivatives.
@@ -14,7 +14,7 @@
 use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3, Vector4};
 
 use super::parameters::mean_and_deviations;
-use crate::math::{continuous_log, exp_map, mean_quaternion, same_hemisphere, solve_normal_equations};
+use crate::math::{continuous_log, exp_map, mean_quaternion, same_hemisphere, smooth_step, solve_normal_equations};
 
 /// Rotation vectors about a reference, smooth in the time fraction `u` and linear in the parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -114,9 +114,9 @@ impl OrientationProfile {
     #[must_use]
     pub fn frame(&self, u: f64) -> (UnitQuaternion<f64>, Vector3<f64>) {
         let Some(path) = &self.path else { return (self.reference, Vector3::zeros()) };
-        let [b, slope, _] = blend(path, u.clamp(0.0, 1.0)).map(Quaternion::from_vector);
-        let turning = (b.conjugate() * slope).imag() * (2.0 / b.norm_squared());
-        (UnitQuaternion::new_normalize(b), if (0.0..1.0).contains(&u) { turning } else { Vector3::zeros() })
+        let (along, rate) = softly_stopped(u);
+        let [b, slope, _] = blend(path, along).map(Quaternion::from_vector);
+        (UnitQuaternion::new_normalize(b), (b.conjugate() * slope).imag() * (2.0 * rate / b.norm_squared()))
     }
 }
 
@@ -124,7 +124,8 @@ impl OrientationProfile {
 fn rotation_vectors(d: &OrientationSample, reference: &UnitQuaternion<f64>, path: Option<&DMatrix<f64>>) -> Vec<Vector3<f64>> {
     let mut previous = Vector3::zeros();
     let vector = |(u, q): (&f64, &UnitQuaternion<f64>)| {
-        let frame = path.map_or(*reference, |path| UnitQuaternion::from_quaternion(Quaternion::from_vector(blend(path, *u)[0])));
+        let frame =
+            path.map_or(*reference, |path| UnitQuaternion::from_quaternion(Quaternion::from_vector(blend(path, softly_stopped(*u).0)[0])));
         previous = continuous_log(&(frame.inverse() * q), &previous);
         previous
     };
@@ -143,14 +144,25 @@ fn mean_path(demonstrations: &[OrientationSample], basis: usize) -> Option<DMatr
         let beside = |u: &f64| first[((u * (first.len() - 1) as f64).round() as usize).min(first.len() - 1)];
         let agreement: f64 = d.fractions.iter().zip(&path).map(|(u, q)| beside(u).dot(q)).sum();
         for (u, q) in d.fractions.iter().zip(&path) {
-            activations(*u, &mut psi);
+            activations(softly_stopped(*u).0, &mut psi);
             let row = DVector::from_column_slice(&psi);
             normal.ger(1.0, &row, &row, 1.0);
             moments.ger(agreement.signum(), &row, q, 1.0);
         }
     }
     let path = solve_normal_equations(&normal, &moments).solution;
-    (0..=4 * basis).all(|i| blend(&path, i as f64 / (4 * basis) as f64)[0].norm() > LEAST_NORM).then_some(path)
+    let moment = |i: usize| softly_stopped(i as f64 / (4 * basis) as f64).0;
+    (0..=4 * basis).all(|i| blend(&path, moment(i))[0].norm() > LEAST_NORM).then_some(path)
+}
+
+/// Where along its path the moving reference is at time fraction `u`, and how fast (per unit of `u`): even, but with a minimum-jerk stop over
+/// the last tenth, so that nothing jerks when the movement is over. At rest outside [0, 1].
+fn softly_stopped(u: f64) -> (f64, f64) {
+    const STOP: f64 = 0.1;
+    let z = ((u - (1.0 - STOP)) / STOP).clamp(0.0, 1.0);
+    let held_back = STOP * z.powi(4) * (2.5 - 3.0 * z + z * z);
+    let rate = if u < 0.0 { 0.0 } else { smooth_step(z, 1.0, 0.0) };
+    (u.clamp(0.0, 1.0) - held_back, rate)
 }
 
 /// Quaternions with the signs that make them continuous.

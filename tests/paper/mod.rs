@@ -2,9 +2,12 @@
 
 mod dataset_damage;
 mod dataset_import;
+mod learning_coupling;
 mod learning_datasets;
 mod learning_execution;
 mod learning_laws;
+mod learning_motion;
+mod learning_orientation;
 mod learning_pick_and_place;
 mod learning_selection;
 mod phmm_inference;

@@ -255,15 +255,13 @@ fn check(skill: &Skill, settings: &ExecutionSettings, duration_s: f64) -> Result
         return Err(LearningError::Settings(faults));
     }
     let orientations = [settings.start_orientation, settings.goal_orientation];
-    for (what, q) in ["start", "goal"].iter().zip(orientations.iter().flatten()) {
+    for (what, q) in ["start", "goal"].iter().zip(&orientations).filter_map(|(what, q)| Some((what, (*q)?))) {
         if skill.orientation.is_none() {
             return Err(LearningError::Request(format!("a {what} orientation is given, but the skill has no orientation")));
         }
-        if !finite_orientation(q) {
-            return Err(LearningError::Request(format!(
-                "the {what} orientation is {}, but must be a unit quaternion",
-                q.coords.transpose()
-            )));
+        if !finite_orientation(&q) {
+            let found: [f64; 4] = q.coords.into();
+            return Err(LearningError::Request(format!("the {what} orientation is {found:?}, but must be a unit quaternion x, y, z, w")));
         }
     }
     Ok(orientations)
