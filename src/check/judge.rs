@@ -1,5 +1,7 @@
 //! Answers a scenario's criteria.
 
+use nalgebra::Vector3;
+
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
@@ -61,6 +63,9 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
             (Answer::at_least(f64::NAN, *min_m, "m"), false)
         }
         CriterionKind::PlanarCollides { .. } => (Answer::at_least(f64::NAN, 1.0, "settings"), false),
+        CriterionKind::NoCollision => (no_collision(outcome), true),
+        CriterionKind::ExpectedForce { axis, max_n } => (expected_force(outcome, *axis, *max_n), true),
+        CriterionKind::ObjectAt { object, at, offset_m, max_m } => (object_at(outcome, object, at.as_deref(), *offset_m, *max_m), true),
         CriterionKind::GoalReached { max_m } => (goal_reached(outcome, *max_m), true),
         CriterionKind::HumanForce { max_n } => (human_force(outcome, *max_n), true),
         CriterionKind::ComplianceWindow { stiff_at } => (compliance_window(steps, experiment, stiff_at), false),
@@ -88,7 +93,7 @@ fn object_in_container(outcome: &RunOutcome, experiment: &Experiment, object: &s
 /// Half the inner width (m) and the height of the rim above the container's origin (m).
 fn container_size(container: &Object) -> (f64, f64) {
     match &container.kind {
-        ObjectKind::Basket { inner_size_m, wall_height_m, wall_thickness_m } => {
+        ObjectKind::Basket { inner_size_m, wall_height_m, wall_thickness_m, .. } => {
             (inner_size_m.min() / 2.0, wall_height_m + wall_thickness_m)
         }
         _ => (0.0, 0.0),
@@ -104,6 +109,30 @@ fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String])
     let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects) && !standing(c, experiment));
     let first = touching().map(|c| c.first_time_s).fold(None, |first: Option<f64>, t| Some(first.map_or(t, |f| f.min(t))));
     Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
+}
+
+fn no_collision(outcome: &RunOutcome) -> Answer {
+    let touching = || outcome.collisions.iter().filter(|contact| !contact.allowed);
+    let first = touching().map(|contact| contact.first_time_s).reduce(f64::min);
+    Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
+}
+
+/// The skill's own time ends with the phase; what follows is not part of what it expects.
+fn expected_force(outcome: &RunOutcome, axis: usize, max_n: f64) -> Answer {
+    let during = || outcome.steps.iter().filter(|step| step.time_fraction < 1.0);
+    let squared = |step: &StepRecord| (step.wrench[axis] - step.expected_force[axis]).powi(2);
+    let rms = match outcome.skill.force {
+        Some(_) => (during().map(squared).sum::<f64>() / during().count() as f64).sqrt(),
+        None => f64::NAN,
+    };
+    Answer::at_most(rms, max_n, "N")
+}
+
+fn object_at(outcome: &RunOutcome, object: &str, at: Option<&str>, offset_m: [f64; 3], max_m: f64) -> Answer {
+    let place = |name: &str| outcome.final_objects.iter().find(|o| o.name == name).map(|o| o.position.coords);
+    let origin = at.map_or(Some(Vector3::zeros()), place);
+    let distance = place(object).zip(origin).map_or(f64::NAN, |(object, origin)| (object - origin - Vector3::from(offset_m)).norm());
+    Answer::at_most(distance, max_m, "m")
 }
 
 /// Whether the contact is nothing but an object standing on a table.
