@@ -1,7 +1,6 @@
 //! Answers a scenario's criteria.
 
-use nalgebra::Vector3;
-
+use super::judge_objects::{expected_force, no_collision, object_at};
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
@@ -22,7 +21,7 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    fn at_most(value: f64, limit: f64, unit: &'static str) -> Self {
+    pub(super) fn at_most(value: f64, limit: f64, unit: &'static str) -> Self {
         Self { passed: value <= limit, value, limit, unit, first_failed_time_s: None }
     }
 
@@ -44,7 +43,7 @@ impl Answer {
         }
     }
 
-    fn first_failed(mut self, time_s: Option<f64>) -> Self {
+    pub(super) fn first_failed(mut self, time_s: Option<f64>) -> Self {
         self.first_failed_time_s = time_s;
         self
     }
@@ -109,30 +108,6 @@ fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String])
     let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects) && !standing(c, experiment));
     let first = touching().map(|c| c.first_time_s).fold(None, |first: Option<f64>, t| Some(first.map_or(t, |f| f.min(t))));
     Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
-}
-
-fn no_collision(outcome: &RunOutcome) -> Answer {
-    let touching = || outcome.collisions.iter().filter(|contact| !contact.allowed);
-    let first = touching().map(|contact| contact.first_time_s).reduce(f64::min);
-    Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
-}
-
-/// The skill's own time ends with the phase; what follows is not part of what it expects.
-fn expected_force(outcome: &RunOutcome, axis: usize, max_n: f64) -> Answer {
-    let during = || outcome.steps.iter().filter(|step| step.time_fraction < 1.0);
-    let squared = |step: &StepRecord| (step.wrench[axis] - step.expected_force[axis]).powi(2);
-    let rms = match outcome.skill.force {
-        Some(_) => (during().map(squared).sum::<f64>() / during().count() as f64).sqrt(),
-        None => f64::NAN,
-    };
-    Answer::at_most(rms, max_n, "N")
-}
-
-fn object_at(outcome: &RunOutcome, object: &str, at: Option<&str>, offset_m: [f64; 3], max_m: f64) -> Answer {
-    let place = |name: &str| outcome.final_objects.iter().find(|o| o.name == name).map(|o| o.position.coords);
-    let origin = at.map_or(Some(Vector3::zeros()), place);
-    let distance = place(object).zip(origin).map_or(f64::NAN, |(object, origin)| (object - origin - Vector3::from(offset_m)).norm());
-    Answer::at_most(distance, max_m, "m")
 }
 
 /// Whether the contact is nothing but an object standing on a table.

@@ -51,12 +51,9 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
         "planar_collides" => CriterionKind::PlanarCollides { method: method(table)?, settings: settings(table) },
         "no_collision" => CriterionKind::NoCollision,
         "expected_force" => CriterionKind::ExpectedForce { axis: axis(table.text("axis"))?, max_n: table.number("max_n") },
-        "object_at" => CriterionKind::ObjectAt {
-            object: object(),
-            at: table.optional_text("at"),
-            offset_m: table.array("offset_m"),
-            max_m: max_m(),
-        },
+        "object_at" => {
+            CriterionKind::ObjectAt { object: object(), at: table.optional_text("at"), offset_m: table.array("offset_m"), max_m: max_m() }
+        }
         "goal_reached" => CriterionKind::GoalReached { max_m: max_m() },
         "human_force" => CriterionKind::HumanForce { max_n: table.number("max_n") },
         "compliance_window" => CriterionKind::ComplianceWindow { stiff_at: table.texts("stiff_at") },

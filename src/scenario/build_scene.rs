@@ -27,9 +27,7 @@ pub(super) fn object(table: &Node) -> Option<Object> {
             rolling_damping_per_s: table.number("rolling_damping_per_s"),
         },
         "box" => ObjectKind::Box { size_m: table.array::<3>("size_m").into(), body: solid(table) },
-        "cylinder" => {
-            ObjectKind::Cylinder { radius_m: table.number("radius_m"), height_m: table.number("height_m"), body: solid(table) }
-        }
+        "cylinder" => ObjectKind::Cylinder { radius_m: table.number("radius_m"), height_m: table.number("height_m"), body: solid(table) },
         "spring_plate" => ObjectKind::SpringPlate {
             size_m: table.array::<3>("size_m").into(),
             travel_m: table.number("travel_m"),

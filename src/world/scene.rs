@@ -96,11 +96,8 @@ pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &
         for part in object_parts(object, parameters) {
             let name = if part.name.is_empty() { object.name.clone() } else { format!("{}.{}", object.name, part.name) };
             let id = parts.add(Part { name, owner: Owner::Object(index) });
-            let collider = collider(&part)
-                .friction(matter.friction)
-                .mass(matter.mass_kg)
-                .collision_groups(layer.groups())
-                .user_data(id as u128);
+            let collider =
+                collider(&part).friction(matter.friction).mass(matter.mass_kg).collision_groups(layer.groups()).user_data(id as u128);
             engine.insert_collider(collider, Some(body));
         }
         if let ObjectKind::SpringPlate { travel_m, stiffness_n_per_m, damping_ns_per_m, .. } = &object.kind {
@@ -158,9 +155,10 @@ struct Spring {
 fn mount(engine: &mut PhysicsWorld, body: RigidBodyHandle, world_from_plate: &Isometry3<f64>, mass_kg: f64, spring: &Spring) {
     let frame = engine.insert_body(RigidBodyBuilder::fixed().pose(convert::pose(world_from_plate)));
     let weight = -mass_kg * engine.gravity.z;
-    let joint = PrismaticJointBuilder::new(Vector::Z)
-        .limits([-spring.travel, 0.0])
-        .motor_model(MotorModel::ForceBased)
-        .motor_position(weight / spring.stiffness, spring.stiffness, spring.damping);
+    let joint = PrismaticJointBuilder::new(Vector::Z).limits([-spring.travel, 0.0]).motor_model(MotorModel::ForceBased).motor_position(
+        weight / spring.stiffness,
+        spring.stiffness,
+        spring.damping,
+    );
     engine.insert_impulse_joint(frame, body, joint);
 }
