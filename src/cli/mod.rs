@@ -6,6 +6,8 @@
 mod args;
 mod explain;
 mod failure;
+mod figure_files;
+mod figures;
 mod files;
 mod generate;
 mod generate_request;
@@ -53,6 +55,7 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::Learn(arguments) => learn::learn(arguments, &cli.global, &terminal),
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
+        Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
         Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),
     };
