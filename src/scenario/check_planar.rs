@@ -8,7 +8,7 @@ use super::tree::{Node, Value};
 const OF_ARMS: [&str; 9] = ["parameters", "demonstrations", "robot", "simulation", "object", "teaching", "coupling", "execution", "human"];
 
 /// Keys of the learning that planar experiments decide themselves.
-const DECIDED: [&str; 5] = ["theta_m", "theta_f", "shaping", "force", "compliance"];
+const DECIDED: [&str; 6] = ["theta_m", "theta_f", "space", "shaping", "force", "compliance"];
 
 /// The filled scenario without what means nothing to it: defaults that nobody typed, and that could not be typed.
 pub(super) fn without_arm(mut scenario: Node) -> Node {

@@ -39,6 +39,17 @@ fn a_run_tells_the_same_everywhere_and_can_be_repeated() {
     assert_eq!(written, ["demonstrations", "manifest.json", "report.json", "scenario.toml", "skill.json", "steps.parquet"]);
     assert_eq!(names(&folder.path().join("runs")), ["good-0"]);
 
+    for path in ["runs/good-0", "runs/good-0/manifest.json"] {
+        let inspected = folder.call(&["inspect", path, "--format", "json"]);
+        assert_eq!(inspected.code, Some(0), "{}", inspected.stderr);
+        let found = json(&inspected.stdout);
+        assert_eq!(
+            (&found["kind"], &found["run"]["scenario"], &found["run"]["outcome"]),
+            (&"run".into(), &"good".into(), &"passed".into())
+        );
+        assert_eq!(found["run"]["state_hash"].as_str(), Some(state_hash), "{found}");
+    }
+
     let again = folder.call(&["run", "a.toml", "--format", "json", "--jobs", "1", "-q"]);
     assert_eq!((again.code, again.stderr.as_str()), (Some(0), ""));
     assert_eq!(hash(&again), state_hash, "the same run, on another number of threads");
