@@ -68,7 +68,8 @@ impl Conform<'_> {
             return Value::Number(number);
         }
         let message = format!("`{path}` is {}", shown(number));
-        let fault = Fault::at(Code::OutOfRange, typed.origin, message).expected(measure.describe());
+        let expected = if matches!(kind, Kind::NumberOrWord(..)) { kind.describe() } else { measure.describe() };
+        let fault = Fault::at(Code::OutOfRange, typed.origin, message).expected(expected);
         self.faults.push(fault.maybe_help(other_unit(number, measure)));
         Value::Missing
     }

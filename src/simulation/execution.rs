@@ -7,7 +7,7 @@ use super::setup::Setup;
 use super::step_loop::{Published, StepLoop};
 use super::{FinalObject, SimulationError, StepRecord};
 use crate::control::{Controller, SkillController};
-use crate::learning::{ExecutionSettings, Skill, SkillExecution};
+use crate::learning::{Skill, SkillExecution};
 use crate::world::{Clearance, ContactEpisode, World};
 
 /// What an execution left behind.
@@ -28,7 +28,7 @@ const EXECUTION_RUN: u64 = u64::MAX;
 /// Executes `skill` in the experiment's setting.
 pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, SimulationError> {
     let experiment = &setup.experiment;
-    let query = settings(setup);
+    let query = experiment.question();
     let execution = SkillExecution::new(skill, &query)?;
     let duration = execution.duration_s();
     let goal = setup.tool_at(execution.goal().as_slice()).translation.vector;
@@ -46,7 +46,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
     let steps = setup.steps(duration / slowest + experiment.execution.settle_s) + 1;
     let mut settled = 0;
     let every = setup.steps(1.0 / experiment.log_rate_hz).max(1);
-    let mut records = Vec::with_capacity((steps / every) as usize + 1);
+    let mut records = Vec::with_capacity((setup.steps(duration) / every) as usize + 1);
     let mut human_peak_force_n: f64 = 0.0;
     let mut hold = setup.hold();
     let mut run = StepLoop {
@@ -79,21 +79,6 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
         state_hash: world.state_hash(),
         steps,
     })
-}
-
-/// The question that the experiment puts to the skill.
-pub(super) fn settings(setup: &Setup) -> ExecutionSettings {
-    let experiment = &setup.experiment;
-    let theta = |names: &[String]| names.iter().filter_map(|name| Some((name.clone(), experiment.parameters.get(name)?))).collect();
-    ExecutionSettings {
-        theta_m: theta(&experiment.theta_m),
-        theta_f: theta(&experiment.theta_f),
-        duration_s: experiment.execution.duration_s,
-        coupling: experiment.execution.coupling.clone(),
-        integrator: experiment.execution.integrator,
-        phase_stopping: experiment.execution.phase_stopping,
-        ..Default::default()
-    }
 }
 
 fn final_objects(world: &World, names: &[String]) -> Vec<FinalObject> {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::control::{Feedback, ImpedanceSettings};
 use crate::learning::cpdmp::CouplingSettings;
 use crate::learning::dmp::Integrator;
-use crate::learning::{LearningSettings, PhaseStopping};
+use crate::learning::{ExecutionSettings, LearningSettings, PhaseStopping};
 use crate::world::{HumanSettings, Object, Parameters, PhysicsSettings, SensorSettings};
 
 /// One experiment: who teaches what to which robot in which scene, and how the skill is executed.
@@ -50,6 +50,23 @@ pub enum MotionSpace {
     Task,
     /// The arm's joints, from the shoulder (rad).
     Joint,
+}
+
+impl Experiment {
+    /// The question that it puts to the skill.
+    #[must_use]
+    pub fn question(&self) -> ExecutionSettings {
+        let theta = |names: &[String]| names.iter().filter_map(|name| Some((name.clone(), self.parameters.get(name)?))).collect();
+        ExecutionSettings {
+            theta_m: theta(&self.theta_m),
+            theta_f: theta(&self.theta_f),
+            duration_s: self.execution.duration_s,
+            coupling: self.execution.coupling.clone(),
+            integrator: self.execution.integrator,
+            phase_stopping: self.execution.phase_stopping,
+            ..Default::default()
+        }
+    }
 }
 
 /// Where the demonstrations come from.
