@@ -291,7 +291,12 @@ const fn hidden_markov_model(states: i64) -> [Key; 12] {
 const COMPLIANCE: Shape = Shape::plain(&[
     Key::new("statistic", Choice(&["between_demonstration", "conditional", "literal"]), "which covariance of a state decides")
         .or(Preset::Text("between_demonstration")),
-    Key::new("threshold_m2", NumberOrWord(above("m²", 0.0, 1e6), "automatic"), "a state complies when it exceeds this").or_number(1e-4),
+    Key::new(
+        "threshold_m2",
+        NumberOrWord(above("m²", 0.0, 1e6), "automatic"),
+        "a state complies when it exceeds this; in joint space rad²",
+    )
+    .or_number(1e-4),
 ]);
 
 const COUPLING: Shape = Shape::plain(&[
