@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::figure::{Figure, planar_forcing, planar_paths, svg, transitions};
+use super::figure_files::draw;
+use crate::figure::{Figure, planar_forcing, planar_paths, transitions};
 use crate::planar::{Guidance, LearnedSkill, Method, Movement, PlanarOutcome, Transitions};
 #[cfg(feature = "rerun")]
 use crate::recording::write_planar_recording;
@@ -27,7 +28,7 @@ pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, 
         let written = write_planar_recording(&folder.join("recording.rrd"), &run.name, run.seed, left);
         failures.extend(written.err().map(|error| error.to_string()));
     }
-    failures.extend(draw(left, &folder.join("figures")));
+    failures.extend(draw(&figures(left), &folder.join("figures")));
     failures
 }
 
@@ -57,7 +58,7 @@ fn logged<'a>(movement: &'a Movement, setting: &'a str) -> LoggedPath<'a> {
 }
 
 /// The figures of an experiment: those of section 4.1, or those of section 4.2 with the side told and without.
-fn figures(left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
+pub(super) fn figures(left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
     if left.cases_with(Guidance::OneSide).next().is_some() {
         return vec![
             ("paths.svg", planar_paths("Paths to taught and new goals", left, Guidance::OneSide)),
@@ -82,15 +83,4 @@ fn graph(states: &Transitions) -> Figure {
     let reading = "*: movements start here; on each arrow the share of the departures that take it";
     let panel = transitions(reading, &states.graph, &states.chains, PANEL_PT[0]);
     Figure { title: title.to_owned(), panels: vec![panel], columns: 1, panel_size_pt: PANEL_PT }
-}
-
-fn draw(left: &PlanarOutcome, folder: &Path) -> Vec<String> {
-    if let Err(error) = std::fs::create_dir(folder) {
-        return vec![format!("{}: {error}", folder.display())];
-    }
-    let written = |(name, figure): (&str, Figure)| {
-        let document = svg(&figure).map_err(|error| error.to_string())?;
-        write_file(&folder.join(name), &document).map_err(|error| error.to_string())
-    };
-    figures(left).into_iter().filter_map(|figure| written(figure).err()).collect()
 }

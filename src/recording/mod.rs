@@ -11,6 +11,8 @@ mod path_log;
 mod rrd;
 mod step_columns;
 mod step_log;
+mod step_reader;
+mod step_table;
 
 pub use error::RecordingError;
 pub use path_log::{LoggedPath, PATH_COLUMNS, PATH_LOG_VERSION, write_path_log};
@@ -18,3 +20,4 @@ pub use path_log::{LoggedPath, PATH_COLUMNS, PATH_LOG_VERSION, write_path_log};
 pub use rrd::{entity_path, planar_entity, write_planar_recording, write_recording};
 pub use step_columns::{StepColumn, step_columns};
 pub use step_log::{STEP_LOG_VERSION, write_step_log};
+pub use step_reader::read_step_log;

@@ -14,7 +14,7 @@ entities! {
     GRID "map/grid" "lines at whole metres"
     OBSTACLES "map/obstacles" "every obstacle that is passed"
     DEMONSTRATIONS "map/demonstrations" "paths of the demonstrations"
-    GOALS "map/goals" "where movements should end: filled for what was taught"
+    GOALS "map/goals" "where movements should end: dark where it was taught, yellow where not"
     TAUGHT "map/movements/{told}/{method}/taught" "paths of a method for situations that were demonstrated"
     UNSEEN "map/movements/{told}/{method}/unseen" "its paths for situations that were not"
     COLLISIONS "map/movements/{told}/{method}/collisions" "where a path that touches the obstacle is deepest inside"
