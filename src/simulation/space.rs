@@ -26,18 +26,22 @@ impl Setup {
         }
     }
 
-    /// A recorded dataset as the experiment learns it: in joint space by the joints, whatever it says its motion is.
+    /// A recorded dataset as the experiment learns it: in joint space by the joints, whatever it says its motion is, and in task space by the
+    /// tool when its motion is the joints.
     pub(super) fn in_space(&self, dataset: Dataset) -> Result<Dataset, SimulationError> {
-        if self.experiment.space == MotionSpace::Task {
-            return Ok(dataset);
-        }
+        let of_joints = dataset.motion.iter().cloned().eq(joint_columns(self.joints()));
+        let space = match self.experiment.space {
+            MotionSpace::Task if !of_joints => return Ok(dataset),
+            MotionSpace::Task => "task",
+            MotionSpace::Joint => "joint",
+        };
         let dataset = Dataset { motion: self.taught_motion(), ..dataset };
         let lacks = |column: &&String| dataset.demonstrations.iter().any(|one| !one.trajectory.columns().contains(column));
         match dataset.motion.iter().find(lacks) {
-            Some(column) => Err(SimulationError::Mismatch(format!(
-                "learning.space is \"joint\", and the arm has {} joints, but they have no column {column}",
-                self.joints()
-            ))),
+            Some(column) => {
+                let needed = format!("learning.space is \"{space}\", and the arm has {} joints", self.joints());
+                Err(SimulationError::Mismatch(format!("{needed}, but they have no column {column}")))
+            }
             None => Ok(dataset),
         }
     }
