@@ -1,12 +1,13 @@
 //! What learning chose from the data, with the curve it was chosen from.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::figure;
 use crate::learning::LearningReport;
 
 /// One setting that was chosen.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ChoiceSection {
     /// Which setting: `motion.states` or `motion.ridge`.
     pub setting: &'static str,
@@ -17,7 +18,7 @@ pub struct ChoiceSection {
 }
 
 /// One candidate.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Candidate {
     /// Its value.
     pub value: f64,
