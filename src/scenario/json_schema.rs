@@ -87,8 +87,8 @@ impl Writer {
     fn kind(&self, kind: &Kind) -> Value {
         match kind {
             Kind::Flag => json!({ "type": "boolean" }),
-            Kind::Count(min, i64::MAX) => json!({ "type": "integer", "minimum": min }),
-            Kind::Count(min, max) => json!({ "type": "integer", "minimum": min, "maximum": max }),
+            Kind::Count(min, max) => count(*min, *max),
+            Kind::CountOrWord(min, max, word) => json!({ "anyOf": [count(*min, *max), { "const": word }] }),
             Kind::Number(measure) => number(measure),
             Kind::Quantity(measure) => json!({ "anyOf": [number(measure), name()] }),
             Kind::NumberOrWord(measure, word) => json!({ "anyOf": [number(measure), { "const": word }] }),
@@ -109,6 +109,14 @@ impl Writer {
 
 fn name() -> Value {
     json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]{1,64}$" })
+}
+
+fn count(min: i64, max: i64) -> Value {
+    let mut schema = json!({ "type": "integer", "minimum": min });
+    if max < i64::MAX {
+        schema["maximum"] = json!(max);
+    }
+    schema
 }
 
 fn number(measure: &Measure) -> Value {
