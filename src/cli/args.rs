@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::learning_args::{Generate, Inspect, Learn};
+use super::sweep_args::{MergeArguments, SweepArguments};
 
 /// A physics testbed for Compliant Parametric Dynamic Movement Primitives.
 ///
@@ -32,6 +33,10 @@ pub(super) enum Command {
     Generate(Generate),
     /// Say what a skill, a dataset, a run folder or a robot's file holds
     Inspect(Inspect),
+    /// Run a scenario again and again with other values of its keys: one table, one row per run
+    Sweep(SweepArguments),
+    /// Join the tables of a sweep's shards into one (--out)
+    Merge(MergeArguments),
     /// List the scenarios of a folder, with what each shows
     List(Folders),
     /// Explain exit codes and the codes of faults
@@ -77,7 +82,7 @@ pub(super) struct Global {
     #[arg(long, global = true, env = "CPDMP_ASSET_ROOT", value_name = "DIR")]
     pub asset_root: Vec<PathBuf>,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the
-    /// samples to this file
+    /// samples to this file; the sweep to this folder instead of sweeps/<scenario>; the joined table to this file
     #[arg(long, global = true, env = "CPDMP_OUT", value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Use this many threads; the result does not depend on it

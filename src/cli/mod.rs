@@ -15,10 +15,15 @@ mod learn;
 mod learning_args;
 mod list;
 mod load;
+mod merge;
 mod planar_files;
 mod progress;
 mod run;
 mod select;
+mod sweep;
+mod sweep_args;
+mod sweep_progress;
+mod sweep_text;
 mod terminal;
 mod validate;
 
@@ -53,6 +58,8 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::Learn(arguments) => learn::learn(arguments, &cli.global, &terminal),
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
+        Command::Sweep(arguments) => sweep::sweep(arguments, &cli.global, &terminal),
+        Command::Merge(arguments) => merge::merge(arguments, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
         Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),
     };

@@ -28,6 +28,7 @@ pub use comparison::{ComparisonReport, MethodSummary, MovementReport, SettingRep
 pub use data_section::{ColumnRow, DataSection, DemonstrationRow};
 pub use error_section::{ErrorRow, ValidationRow, ValidationSection};
 pub use learn_report::LearnReport;
+pub use lock::{Lock, LockError, lock};
 pub use manifest::{FileHash, Host, Manifest, hash_file};
 pub use outcome::Outcome;
 pub use output_file::{Replaceable, prepare_file, replace_file};
@@ -39,4 +40,5 @@ pub use run_report::{
 };
 pub use run_section::{CriterionLine, FileLine, RunSection};
 pub use skill_section::{FitSection, ParameterRange, SkillSection, StateRow};
+pub use table::{figure, table};
 pub use text::text;

@@ -13,6 +13,8 @@ pub enum Replaceable {
     Skill,
     /// Samples: its first line names a column `time_s`, or it is a Parquet file.
     Samples,
+    /// The table of a sweep: a Parquet file.
+    Table,
 }
 
 /// Bytes at the beginning of a file that say what it is.
@@ -24,7 +26,11 @@ const BEGINNING: u64 = 4096;
 /// When something else is there, or the folder cannot be made.
 pub fn prepare_file(path: &Path, replaceable: Replaceable) -> Result<(), OutputError> {
     if path.symlink_metadata().is_ok() && !is_replaceable(path, replaceable) {
-        let what = if replaceable == Replaceable::Skill { "a skill" } else { "a file of samples" };
+        let what = match replaceable {
+            Replaceable::Skill => "a skill",
+            Replaceable::Samples => "a file of samples",
+            Replaceable::Table => "a Parquet file",
+        };
         return Err(OutputError::NotOurs { path: path.to_path_buf(), what });
     }
     let folder = folder(path);
@@ -65,6 +71,7 @@ fn is_replaceable(path: &Path, replaceable: Replaceable) -> bool {
     }
     let text = String::from_utf8_lossy(&bytes);
     match replaceable {
+        Replaceable::Table => bytes.starts_with(b"PAR1"),
         Replaceable::Skill => text.trim_start().starts_with('{') && text.contains("\"cpdmp-skill\""),
         Replaceable::Samples => {
             bytes.starts_with(b"PAR1") || text.lines().next().is_some_and(|line| line.split(',').any(|c| c == "time_s"))

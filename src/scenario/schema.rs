@@ -8,6 +8,7 @@ use super::key::Length::{AtLeast, Exactly};
 use super::key::To::{MovableObject, Object, ObjectOfKind, Parameter};
 use super::key::{Key, PathTo, Preset, Shape, Variant};
 use super::measure::{above, within};
+use super::schema_sweep::SWEEP;
 
 /// The version of the language that this program reads and writes.
 pub(super) const SCHEMA_VERSION: i64 = 1;
@@ -32,6 +33,7 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
     Key::new("human", Section(HUMAN), "the virtual human").or_empty(),
     Key::new("recording", Section(RECORDING), "what is written to the run folder").or_empty(),
     Key::new("criterion", List(CRITERION), "what the run must show").or_empty(),
+    Key::new("sweep", List(SWEEP), "what `cpdmp sweep` varies from run to run; a single run leaves it aside").or_empty(),
 ]);
 
 /// A file with nothing but the `[learning]` table.
