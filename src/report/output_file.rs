@@ -15,6 +15,19 @@ pub enum Replaceable {
     Samples,
     /// The table of a sweep: a Parquet file.
     Table,
+    /// A JUnit report.
+    Junit,
+}
+
+impl Replaceable {
+    fn describe(self) -> &'static str {
+        match self {
+            Self::Skill => "a skill",
+            Self::Samples => "a file of samples",
+            Self::Table => "a Parquet file",
+            Self::Junit => "a JUnit report",
+        }
+    }
 }
 
 /// Bytes at the beginning of a file that say what it is.
@@ -26,12 +39,7 @@ const BEGINNING: u64 = 4096;
 /// When something else is there, or the folder cannot be made.
 pub fn prepare_file(path: &Path, replaceable: Replaceable) -> Result<(), OutputError> {
     if path.symlink_metadata().is_ok() && !is_replaceable(path, replaceable) {
-        let what = match replaceable {
-            Replaceable::Skill => "a skill",
-            Replaceable::Samples => "a file of samples",
-            Replaceable::Table => "a Parquet file",
-        };
-        return Err(OutputError::NotOurs { path: path.to_path_buf(), what });
+        return Err(OutputError::NotOurs { path: path.to_path_buf(), what: replaceable.describe() });
     }
     let folder = folder(path);
     fs::create_dir_all(folder).map_err(OutputError::io(folder))
@@ -73,6 +81,7 @@ fn is_replaceable(path: &Path, replaceable: Replaceable) -> bool {
     match replaceable {
         Replaceable::Table => bytes.starts_with(b"PAR1"),
         Replaceable::Skill => text.trim_start().starts_with('{') && text.contains("\"cpdmp-skill\""),
+        Replaceable::Junit => text.contains("<testsuites"),
         Replaceable::Samples => {
             bytes.starts_with(b"PAR1") || text.lines().next().is_some_and(|line| line.split(',').any(|c| c == "time_s"))
         }
