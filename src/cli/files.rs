@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::judged_run::{JudgedRun, Left};
-use super::planar_files;
+use super::{figure_files, planar_files};
 use crate::recording;
 use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file, write_file};
 use crate::scenario::{RecordingPlan, Scenario, Work};
@@ -43,6 +43,10 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
     failures.extend(written.err());
     if plan.steps {
         failures.extend(recording::write_step_log(&folder.join("steps.parquet"), left).err().map(|error| error.to_string()));
+    }
+    match figure_files::arm_run(experiment, left).and_then(|run| figure_files::of_arm(&run)) {
+        Ok(figures) => failures.extend(figure_files::draw(&figures, &folder.join("figures"))),
+        Err(error) => failures.push(format!("figures: {error}")),
     }
     #[cfg(feature = "rerun")]
     if plan.rrd {
