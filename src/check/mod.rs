@@ -4,10 +4,14 @@ mod criterion;
 mod judge;
 mod judge_planar;
 mod place;
+mod planar_trace;
+mod replay_difference;
 mod windows;
 
 pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, PlanarSettings};
 pub use judge::judge;
 pub use judge_planar::judge_planar;
 pub use place::Place;
+pub use planar_trace::planar_traces;
+pub use replay_difference::{DifferenceKind, ReplayDifference, exact_difference, first_difference};
 pub use windows::{Window, compliance_windows, human_windows};

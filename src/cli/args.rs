@@ -37,6 +37,8 @@ pub(super) enum Command {
     Inspect(Inspect),
     /// Run a scenario again and again with other values of its keys: one table, one row per run
     Sweep(SweepArguments),
+    /// Run a run again and compare its state hashes; with --set, say where another run parts from it
+    Replay(RunFolder),
     /// Join the tables of a sweep's shards into one (--out)
     Merge(MergeArguments),
     /// Draw the figures of a run again, from what its folder holds

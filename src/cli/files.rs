@@ -10,6 +10,9 @@ use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file, write_
 use crate::scenario::{RecordingPlan, Scenario, Work};
 use crate::simulation::{Experiment, RunOutcome};
 
+/// The hashes that a repetition is held against.
+pub(super) const STATE_LOG: &str = "state_hashes.parquet";
+
 /// Writes everything into the folder. A recording that cannot be written is told in the report, which is written all the same.
 pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<(), OutputError> {
     if let Some(left) = &run.left {
@@ -47,6 +50,9 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
     match figure_files::arm_run(experiment, left).and_then(|run| figure_files::of_arm(&run)) {
         Ok(figures) => failures.extend(figure_files::draw(&figures, &folder.join("figures"))),
         Err(error) => failures.push(format!("figures: {error}")),
+    }
+    if plan.hash_every_steps > 0 {
+        failures.extend(recording::write_state_log(&folder.join(STATE_LOG), &left.traces).err().map(|error| error.to_string()));
     }
     #[cfg(feature = "rerun")]
     if plan.rrd {

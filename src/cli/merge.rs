@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::args::{Format, Global};
-use super::sweep::refuse;
+use super::failure::Failure;
 use super::sweep_args::MergeArguments;
 use super::terminal::Terminal;
 use crate::batch;
@@ -23,10 +23,7 @@ struct Merged<'a> {
 
 /// Joins tables into the file that `--out` names.
 pub(super) fn merge(arguments: &MergeArguments, global: &Global, terminal: &Terminal) -> Outcome {
-    let stop = |outcome, text: &str| {
-        refuse(outcome, text, &[], terminal);
-        outcome
-    };
+    let stop = |outcome, text: &str| Failure::new(outcome, [text.to_owned()]).tell(terminal);
     let Some(out) = &global.out else {
         return stop(Outcome::Usage, "say where the joined table goes, with --out FILE.parquet");
     };

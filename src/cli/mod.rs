@@ -21,6 +21,7 @@ mod load;
 mod merge;
 mod planar_files;
 mod progress;
+mod replay;
 mod run;
 mod select;
 mod sweep;
@@ -67,6 +68,7 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.global, &terminal),
+        Command::Replay(arguments) => replay::replay(&arguments.folder, &cli.global, &terminal),
         Command::Merge(arguments) => merge::merge(arguments, &cli.global, &terminal),
         Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),

@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use super::figure_files::draw;
+use super::files::STATE_LOG;
+use crate::check::planar_traces;
 use crate::figure::{Figure, planar_forcing, planar_paths, transitions};
 use crate::planar::{Guidance, Method, Movement, PlanarOutcome, Transitions};
-use crate::recording::{LoggedPath, write_path_log};
+use crate::recording::{LoggedPath, write_path_log, write_state_log};
 use crate::scenario::{PlanarRun, RecordingPlan};
 
 /// Writes everything into the folder. Returns what could not be written.
@@ -18,6 +20,10 @@ pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, 
     }
     if plan.steps {
         failures.extend(write_path_log(&folder.join("paths.parquet"), &paths(left)).err().map(|error| error.to_string()));
+    }
+    if plan.hash_every_steps > 0 {
+        let traces = planar_traces(left, plan.hash_every_steps);
+        failures.extend(write_state_log(&folder.join(STATE_LOG), &traces).err().map(|error| error.to_string()));
     }
     failures.extend(draw(&figures(left), &folder.join("figures")));
     failures

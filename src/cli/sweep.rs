@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::args::{Format, Global};
+use super::failure::Failure;
 use super::judged_run::judged_run;
 use super::load::options;
 use super::sweep_args::SweepArguments;
@@ -14,7 +15,7 @@ use super::terminal::Terminal;
 use super::validate::beyond_the_file;
 use crate::batch::{BatchError, NotReady, Plan, Row, Runner, Shard, Summary, SweepFolder, execute};
 use crate::report::Outcome;
-use crate::scenario::{Diagnostic, Member, Scenario, Sweep, SweepOptions};
+use crate::scenario::{Member, Scenario, Sweep, SweepOptions};
 use crate::simulation::Silent;
 
 /// Checks every member, then runs those that have no row yet. The worst outcome counts.
@@ -31,33 +32,30 @@ pub(super) fn sweep(arguments: &SweepArguments, global: &Global, terminal: &Term
             tell(&plan, arguments.shard, &table, &summary, terminal);
             summary.worst
         }
-        Err(error) => {
-            refuse(error.outcome(), &error.to_string(), &[], terminal);
-            error.outcome()
-        }
+        Err(error) => Failure::new(error.outcome(), [error.to_string()]).tell(terminal),
     }
 }
 
 /// The sweep, every member of which can be run.
 fn checked(arguments: &SweepArguments, global: &Global, terminal: &Terminal) -> Result<Plan, Outcome> {
-    let stop = |outcome, text: &str, diagnostics: &[Diagnostic]| {
-        refuse(outcome, text, diagnostics, terminal);
-        Err(outcome)
-    };
+    let stop = |outcome, text: String| Failure::new(outcome, [text]);
     let path = arguments.path.display();
     let asked = SweepOptions { grid: arguments.grid.clone(), repeat: arguments.repeat };
     let sweep = match Sweep::load(&arguments.path, &options(global), &asked) {
         Ok(sweep) => sweep,
-        Err(invalid) => return stop(Outcome::InvalidInput, &format!("{path}: the sweep cannot be used, nothing was run"), &invalid.0),
+        Err(invalid) => {
+            let failure = stop(Outcome::InvalidInput, format!("{path}: the sweep cannot be used, nothing was run"));
+            return Err(failure.because(invalid.0).tell(terminal));
+        }
     };
     match sweep.members() {
         0 => {
             let help = "give the file a [[sweep]] with values, or use --grid KEY=a,b,c or --repeat N";
-            stop(Outcome::NothingSelected, &format!("the sweep of {path} has no members: {help}"), &[])
+            Err(stop(Outcome::NothingSelected, format!("the sweep of {path} has no members: {help}")).tell(terminal))
         }
         many if many > arguments.max_runs => {
             let (most, help) = (arguments.max_runs, "make its grids smaller, or allow it with --max-runs");
-            stop(Outcome::InvalidInput, &format!("the sweep of {path} has {many} members, more than {most}: {help}"), &[])
+            Err(stop(Outcome::InvalidInput, format!("the sweep of {path} has {many} members, more than {most}: {help}")).tell(terminal))
         }
         many => {
             terminal.note(&format!("checking {many} members of {path}\n"));
@@ -110,26 +108,6 @@ fn quoted(word: &str) -> String {
     if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
 
-/// What programs read about a sweep that was not run.
-#[derive(Serialize)]
-struct Refused<'a> {
-    schema_version: u32,
-    outcome: Outcome,
-    exit_code: u8,
-    error: &'a str,
-    diagnostics: &'a [Diagnostic],
-}
-
-pub(super) fn refuse(outcome: Outcome, error: &str, diagnostics: &[Diagnostic], terminal: &Terminal) {
-    match terminal.format {
-        Format::Json => terminal.json(&Refused { schema_version: 1, outcome, exit_code: outcome.exit_code(), error, diagnostics }),
-        Format::Human => {
-            terminal.faults(diagnostics);
-            terminal.error(&format!("error: {error}\n"));
-        }
-    }
-}
-
 fn tell_not_ready(path: &Path, not_ready: &NotReady, terminal: &Terminal) -> Outcome {
     let outcome = Outcome::InvalidInput;
     let told = not_ready.refused.iter().map(|(index, reason)| format!("member {index}: {reason}"));
@@ -143,8 +121,7 @@ fn tell_not_ready(path: &Path, not_ready: &NotReady, terminal: &Terminal) -> Out
         lines.extend(not_ready.invalid.iter().map(ToString::to_string));
     }
     lines.push(format!("{}: {} members of the sweep cannot be run, nothing was run", path.display(), not_ready.faulty));
-    refuse(outcome, &lines.join("\n"), &[], terminal);
-    outcome
+    Failure::new(outcome, lines).tell(terminal)
 }
 
 /// What programs read about a sweep.

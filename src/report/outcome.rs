@@ -11,6 +11,8 @@ pub enum Outcome {
     CriteriaNotMet,
     /// The simulation left the finite numbers.
     Diverged,
+    /// A repetition is not the run that it repeats.
+    ReplayDiffers,
     /// No skill could be learned.
     LearningFailed,
     /// The arguments select no scenario.
@@ -29,10 +31,11 @@ pub enum Outcome {
 
 impl Outcome {
     /// Every outcome, from the mildest to the worst: a command that meets several ends with the worst.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Passed,
         Self::CriteriaNotMet,
         Self::Diverged,
+        Self::ReplayDiffers,
         Self::LearningFailed,
         Self::NothingSelected,
         Self::OutputBusy,
@@ -53,6 +56,7 @@ impl Outcome {
             Self::NothingSelected => 5,
             Self::CriteriaNotMet => 10,
             Self::Diverged => 11,
+            Self::ReplayDiffers => 13,
             Self::OutputFailed => 20,
             Self::OutputBusy => 21,
         }
@@ -64,6 +68,7 @@ impl Outcome {
             Self::Passed => "passed",
             Self::CriteriaNotMet => "criteria_not_met",
             Self::Diverged => "diverged",
+            Self::ReplayDiffers => "replay_differs",
             Self::LearningFailed => "learning_failed",
             Self::NothingSelected => "nothing_selected",
             Self::OutputBusy => "output_busy",
@@ -84,6 +89,9 @@ impl Outcome {
             }
             Self::Diverged => {
                 "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help"
+            }
+            Self::ReplayDiffers => {
+                "the repetition of a run is not the same to the last bit: the message says from where on, and what explains it"
             }
             Self::LearningFailed => "no skill could be learned from the demonstrations: the message says what they lack",
             Self::NothingSelected => "the arguments name no scenario: check the folder or pattern",

@@ -5,7 +5,7 @@ use super::tree::Node;
 use super::{build_learning, build_scene};
 use crate::control::ImpedanceSettings;
 use crate::robot::EffortModel;
-use crate::simulation::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings};
+use crate::simulation::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings, TraceSettings};
 use crate::world::{HumanSettings, Parameters, PhysicsSettings, SensorSettings};
 
 /// The experiment that a scenario describes.
@@ -37,6 +37,7 @@ pub(super) fn experiment(scenario: &Node) -> Experiment {
         learning: build_learning::learning(&learning),
         execution: execution(&scenario.section("execution"), &scenario.section("coupling"), &human.section("help")),
         log_rate_hz: simulation.number("log_rate_hz"),
+        trace: TraceSettings { every_steps: scenario.section("recording").count("hash_every_steps"), detail: None },
     }
 }
 
@@ -105,5 +106,10 @@ fn execution(table: &Node, coupling: &Node, help: &Node) -> ExecutionPlan {
 /// What is written to the run folder.
 pub(super) fn recording(scenario: &Node) -> RecordingPlan {
     let table = scenario.section("recording");
-    RecordingPlan { rrd: table.flag("rrd"), steps: table.flag("steps"), demonstrations: table.flag("demonstrations") }
+    RecordingPlan {
+        rrd: table.flag("rrd"),
+        steps: table.flag("steps"),
+        demonstrations: table.flag("demonstrations"),
+        hash_every_steps: table.count("hash_every_steps"),
+    }
 }

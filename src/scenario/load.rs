@@ -52,6 +52,8 @@ pub struct RecordingPlan {
     pub steps: bool,
     /// The dataset that was learned from.
     pub demonstrations: bool,
+    /// Steps between two hashes of the states; 0 keeps none.
+    pub hash_every_steps: u64,
 }
 
 /// What the user says besides the file.

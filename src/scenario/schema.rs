@@ -355,6 +355,8 @@ const RECORDING: Shape = Shape::plain(&[
     Key::new("rrd", Flag, "recording.rrd, for the rerun viewer").or(Preset::Flag(true)),
     Key::new("steps", Flag, "steps.parquet, one row per logged step").or(Preset::Flag(true)),
     Key::new("demonstrations", Flag, "demonstrations/, the dataset that was learned from").or(Preset::Flag(true)),
+    Key::new("hash_every_steps", Count(0, 1_000_000), "state_hashes.parquet, for `cpdmp replay`: steps between two hashes; 0 for none")
+        .or(Preset::Count(100)),
 ]);
 
 /// What makes movements in planar experiments.

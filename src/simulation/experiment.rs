@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::TraceSettings;
 use crate::control::ImpedanceSettings;
 use crate::learning::cpdmp::CouplingSettings;
 use crate::learning::{ExecutionSettings, LearningSettings};
@@ -37,6 +38,8 @@ pub struct Experiment {
     /// Samples per second in the step log and the recording (Hz), from which criteria about moments are answered. Contacts and the person's peak
     /// force are taken at every engine step regardless, clearances at 200 Hz.
     pub log_rate_hz: f64,
+    /// What is kept of the states, so that a repetition can be held against the run.
+    pub trace: TraceSettings,
 }
 
 impl Experiment {

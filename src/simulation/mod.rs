@@ -16,6 +16,7 @@ mod setup;
 mod step_loop;
 mod step_record;
 mod teaching;
+mod trace;
 
 pub use error::SimulationError;
 pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings, TeachingPlan, Waypoint};
@@ -24,3 +25,4 @@ pub use progress::{Progress, Silent};
 pub use run::{History, demonstrate, perform, run};
 pub use setup::Setup;
 pub use step_record::{StepRecord, skill_duration_s};
+pub use trace::{TraceDetail, TraceSettings, WorldTrace};

@@ -10,7 +10,7 @@ use super::{SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
 use crate::demonstration::{Demonstration, Trajectory};
 use crate::math;
-use crate::world::{Parameters, pointing_down};
+use crate::world::{Parameters, StateTrace, pointing_down};
 
 /// One demonstration as it was led, before its wrench is known.
 #[derive(Clone, Debug)]
@@ -27,6 +27,8 @@ pub(super) struct Lesson {
     pub path: ToolPath,
     /// Hash of the world's states.
     pub state_hash: u64,
+    /// What was kept of them.
+    pub trace: StateTrace,
     /// Engine steps.
     pub steps: u64,
 }
@@ -61,6 +63,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         idle: hold.as_mut(),
         step_s: experiment.physics.step_s,
     };
+    run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("teach", number), steps + 1);
     run.run(
         steps + 1,
         |controller, world| controller.gripper = path.at(world.time_s()).2,
@@ -78,6 +81,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         start_posture,
         path: recorder.path,
         state_hash: world.state_hash(),
+        trace: world.take_trace(),
         steps: steps + 1,
     })
 }

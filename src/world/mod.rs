@@ -17,6 +17,7 @@ mod scene;
 mod seen;
 mod sensors;
 mod simulated_world;
+mod state_trace;
 mod virtual_human;
 
 pub use clearance::Clearance;
@@ -27,4 +28,5 @@ pub use physics::PhysicsSettings;
 pub use scene::{ObjectPart, PartShape, initial_pose, object_parts};
 pub use sensors::{EffortSensors, SensorSettings};
 pub use simulated_world::{World, WorldSettings};
+pub use state_trace::{BodyState, QUANTITIES, Quantum, StateTrace};
 pub use virtual_human::{GraspState, Hand, HandWrench, HumanSettings, pointing_down};

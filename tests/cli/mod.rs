@@ -9,6 +9,7 @@ mod overrides;
 mod planar_run;
 mod program;
 mod real_run;
+mod replay;
 mod run_folder;
 mod sweep;
 

@@ -30,7 +30,10 @@ fn a_planar_run_tells_the_same_everywhere_and_can_be_repeated() {
     let run = folder.path().join("runs/obstacle_avoidance-0");
     let mut written = names(&run);
     written.retain(|name| name != "recording.rrd");
-    assert_eq!(written, ["demonstrations", "figures", "manifest.json", "paths.parquet", "report.json", "scenario.toml"]);
+    assert_eq!(
+        written,
+        ["demonstrations", "figures", "manifest.json", "paths.parquet", "report.json", "scenario.toml", "state_hashes.parquet"]
+    );
     for name in names(&run.join("figures")) {
         let text = fs::read_to_string(run.join("figures").join(&name)).expect("a figure");
         assert!(roxmltree::Document::parse(&text).expect("well-formed").descendants().any(|e| e.has_tag_name("polyline")), "{name}");
