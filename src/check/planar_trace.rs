@@ -11,6 +11,10 @@ pub fn planar_traces(outcome: &PlanarOutcome, every: u64) -> Vec<WorldTrace> {
     }
     let mut traces: Vec<WorldTrace> = Vec::new();
     let mut add = |phase: &str, name: &str, points: &[&[f64]]| {
+        // A model without iterations has no likelihoods.
+        if points.is_empty() {
+            return;
+        }
         let number = traces.iter().filter(|world| world.phase == phase).count() as u64;
         let trace = StateTrace::of_series(name, points.iter().copied(), every);
         traces.push(WorldTrace { phase: phase.to_owned(), number, trace });

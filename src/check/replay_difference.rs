@@ -121,8 +121,9 @@ impl fmt::Display for ReplayDifference {
         match &self.what {
             DifferenceKind::World(what) => f.write_str(what),
             DifferenceKind::Exact { step, body, quantity, by, unit, others } => {
+                let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
                 let more = if *others == 0 { String::new() } else { format!(", and {others} other bodies differ too") };
-                write!(f, "first differs in step {step}: the {quantity} of `{body}` by {by:.3e} {unit}{more}")
+                write!(f, "first differs in step {step}: the {quantity} of `{body}` by {by:.3e}{unit}{more}")
             }
             DifferenceKind::Between { equal_up_to, step, parts } => {
                 match equal_up_to {

@@ -42,7 +42,7 @@ fn a_run_is_repeated_to_the_bit_and_a_changed_one_is_caught_in_its_step() {
     assert_eq!((changed["phase"].as_str(), changed["number"].as_u64()), (Some("execute"), Some(0)), "{changed}");
     assert!((2001..=2003).contains(&changed["step"].as_u64().expect("a step")), "{changed}");
     let difference = changed["difference"].as_str().expect("words");
-    assert!(difference.contains("first differs in step") && difference.contains("velocity of `left_"), "{difference}");
+    assert!(difference.contains("first differs in step 200") && difference.contains("of `left_"), "{difference}");
     assert!(changed["reasons"][0].as_str().is_some_and(|reason| reason.contains("flags")), "{changed}");
 }
 

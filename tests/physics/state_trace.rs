@@ -32,7 +32,7 @@ fn hashes_are_kept_every_few_steps_and_at_the_end() {
     let trace = traced(None);
     assert_eq!(trace.steps, [10, 20, 30, 40, 50, 55]);
     assert_eq!((trace.hashes.len(), trace.quantities.len()), (6, 6 * trace.bodies.len()));
-    assert!(trace.bodies.contains(&"cube".to_owned()) && trace.bodies.contains(&"left_hand".to_owned()), "{:?}", trace.bodies);
+    assert!(trace.bodies.contains(&"cube".to_owned()) && trace.bodies.contains(&"left_wrist".to_owned()), "{:?}", trace.bodies);
     assert_eq!(trace, traced(None), "two worlds of the same kind are the same to the bit");
 }
 
