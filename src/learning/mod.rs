@@ -50,4 +50,4 @@ pub use prepare::motion_sequences;
 pub use report::{FitReport, LearningReport, StateReport};
 pub use settings::{LearningSettings, ShapingKind};
 use skill::selection as parameter_selection;
-pub use skill::{Request, Skill};
+pub use skill::{Request, Skill, skill_schema};

@@ -1,5 +1,6 @@
 //! What learning chose from the data, with the curve it was chosen from.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::figure;
@@ -7,7 +8,7 @@ use crate::learning::LearningReport;
 use crate::learning::selection::Choices;
 
 /// One setting that was chosen.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ChoiceSection {
     /// Which setting: `motion.states`, `motion.ridge`, `force.states` or `force.ridge`.
     pub setting: &'static str,
@@ -18,7 +19,7 @@ pub struct ChoiceSection {
 }
 
 /// One candidate.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Candidate {
     /// Its value.
     pub value: f64,

@@ -19,6 +19,7 @@ mod checks;
 mod conform;
 mod diagnostic;
 mod fault;
+mod json_schema;
 mod key;
 mod layer;
 mod learning_file;
@@ -47,6 +48,7 @@ mod work;
 
 pub use diagnostic::{Diagnostic, InvalidScenario};
 pub use fault::{Code, Severity};
+pub use json_schema::{learning_schema, scenario_schema};
 pub use learning_file::{LearningOptions, learning_settings};
 pub use load::{LoadOptions, RecordingPlan, Scenario};
 pub use places::Places;

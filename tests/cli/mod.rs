@@ -11,6 +11,7 @@ mod program;
 mod real_run;
 mod replay;
 mod run_folder;
+mod schemas;
 mod sweep;
 
 pub use program::{Folder, GOOD, Said, cpdmp};
