@@ -103,7 +103,7 @@ impl Setup {
     /// Everything that can fall lies on a table: there is no floor.
     fn stands(&self, parameters: &Parameters) -> Result<(), SimulationError> {
         let objects = &self.experiment.objects;
-        let hanging = objects.iter().filter(|o| o.is_movable()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
+        let hanging = objects.iter().filter(|o| o.is_free()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
         match hanging {
             None => Ok(()),
             Some(object) => {
