@@ -228,7 +228,7 @@ fn ranges(space: &ParameterSpace) -> Vec<ParameterRange> {
 
 fn states(skill: &Skill, theta: &DVector<f64>, segments: &[Segment]) -> Result<Vec<StateRow>, LearningError> {
     let Shaping::Phmm(phmm) = &skill.motion.shaping else { return Ok(Vec::new()) };
-    let shaping = skill.motion.shaping_at(theta)?;
+    let (shaping, features) = (skill.motion.shaping_at(theta)?, skill.motion.parameters.features.at(theta));
     let duration = skill.motion.duration_s;
     let row = |i: usize| {
         let active: Vec<&Segment> = segments.iter().filter(|segment| segment.state == i).collect();
@@ -237,8 +237,8 @@ fn states(skill: &Skill, theta: &DVector<f64>, segments: &[Segment]) -> Result<V
             index: i,
             from_s: active.first().map(|segment| segment.start * duration),
             to_s: active.last().map(|segment| segment.end * duration),
-            duration_s: active.iter().map(|segment| segment.end - segment.start).sum::<f64>() * duration,
-            mean: phmm.mean_at(i, theta).iter().skip(1).copied().collect(),
+            duration_s: active.iter().fold(0.0, |sum, segment| sum + segment.end - segment.start) * duration,
+            mean: phmm.mean_at(i, &features).iter().skip(1).copied().collect(),
             spread: spread.iter().flat_map(|variances| variances.iter()).map(|v| v.max(0.0).sqrt()).collect(),
             value_m2: skill.compliance.values_m2[i],
             beta: skill.compliance.beta[i],
