@@ -112,7 +112,7 @@ fn a_sweep_that_is_killed_again_and_again_ends_in_the_same_table() {
     let folder = folder();
     folder.call(&["sweep", "a.toml", "--grid", "planar.pass_fraction=0.4,0.5", "--out", "whole", "--jobs", "1"]);
     let mut killed = 0;
-    for round in 0..200 {
+    for round in 0..40 {
         let mut child = Command::new(env!("CARGO_BIN_EXE_cpdmp"))
             .current_dir(folder.path())
             .args(["sweep", "a.toml", "--grid", "planar.pass_fraction=0.4,0.5", "--out", "killed", "--resume", "--jobs", "2", "-q"])
@@ -120,8 +120,8 @@ fn a_sweep_that_is_killed_again_and_again_ends_in_the_same_table() {
             .stderr(Stdio::null())
             .spawn()
             .expect("it starts");
-        // Longer with every round, so that any machine comes to an end; dense enough to hit every stage.
-        std::thread::sleep(Duration::from_millis(10 + 15 * round));
+        // Longer with every round, so that a busy machine comes to an end too; dense enough to hit every stage.
+        std::thread::sleep(Duration::from_millis(20).mul_f64(1.3_f64.powi(round)));
         if let Some(status) = child.try_wait().expect("it is there") {
             assert_eq!(status.code(), Some(10));
             break;
