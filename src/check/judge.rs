@@ -1,5 +1,6 @@
 //! Answers a scenario's criteria.
 
+use super::door;
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
@@ -20,7 +21,7 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    fn at_most(value: f64, limit: f64, unit: &'static str) -> Self {
+    pub(super) fn at_most(value: f64, limit: f64, unit: &'static str) -> Self {
         Self { passed: value <= limit, value, limit, unit, first_failed_time_s: None }
     }
 
@@ -42,7 +43,7 @@ impl Answer {
         }
     }
 
-    fn first_failed(mut self, time_s: Option<f64>) -> Self {
+    pub(super) fn first_failed(mut self, time_s: Option<f64>) -> Self {
         self.first_failed_time_s = time_s;
         self
     }
@@ -54,7 +55,11 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         CriterionKind::ObjectInContainer { object, container, speed_max_m_per_s } => {
             (object_in_container(outcome, experiment, object, container, *speed_max_m_per_s), true)
         }
-        CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
+        CriterionKind::NoContact { objects, except_allowed } => (no_contact(outcome, experiment, objects, *except_allowed), true),
+        CriterionKind::DoorOpen { object, min_rad } => (door::open(outcome, experiment, object, *min_rad), false),
+        CriterionKind::ArcFollowed { object, of, max_m } => (door::arc_followed(steps, experiment, object, *of, *max_m), true),
+        CriterionKind::HookKept { object, max_m } => (door::hook_kept(steps, experiment, object, *max_m), true),
+        CriterionKind::ToolForce { max_n } => (tool_force(outcome, *max_n), true),
         CriterionKind::Clearance { objects, min_m } => (clearance(outcome, objects, *min_m), false),
         // Asked of planar experiments only: of an arm there is nothing to measure.
         CriterionKind::PlanarClearance { min_m, .. } | CriterionKind::PlanarSidesPassed { min_m, .. } => {
@@ -100,8 +105,9 @@ fn belongs(name: &str, objects: &[String]) -> bool {
     objects.iter().any(|object| name == object || name.strip_prefix(object.as_str()).is_some_and(|rest| rest.starts_with('.')))
 }
 
-fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String]) -> Answer {
-    let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects) && !standing(c, experiment));
+fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String], except_allowed: bool) -> Answer {
+    let counts = |c: &&ContactEpisode| !standing(c, experiment) && !(except_allowed && c.allowed);
+    let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects)).filter(counts);
     let first = touching().map(|c| c.first_time_s).fold(None, |first: Option<f64>, t| Some(first.map_or(t, |f| f.min(t))));
     Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
 }
@@ -131,6 +137,11 @@ fn human_force(outcome: &RunOutcome, max_n: f64) -> Answer {
     let failed = outcome.steps.iter().find(|step| step.human.force.norm() > allowed).map(|step| step.time_s);
     let value = outcome.human_peak_force_n;
     Answer { passed: value <= allowed, value, limit: max_n, unit: "N", first_failed_time_s: failed }
+}
+
+fn tool_force(outcome: &RunOutcome, max_n: f64) -> Answer {
+    let failed = outcome.steps.iter().find(|step| step.tool_force.norm() > max_n).map(|step| step.time_s);
+    Answer::at_most(outcome.tool_peak_force_n, max_n, "N").first_failed(failed)
 }
 
 /// The moment when the gripper is first told to close.

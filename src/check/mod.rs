@@ -1,11 +1,12 @@
 //! Judges a run from what it left behind: step records, contacts, clearances, where things ended. Never asks the engine or the controller.
 
 mod criterion;
+mod door;
 mod judge;
 mod judge_planar;
 mod windows;
 
-pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, PlanarSettings};
+pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 pub use judge::judge;
 pub use judge_planar::judge_planar;
 pub use windows::{Window, compliance_windows, human_windows};

@@ -1,7 +1,7 @@
 //! A filled tree to what a run must show.
 
 use super::tree::Node;
-use crate::check::{CriterionKind, CriterionSpec, Expectation, PlanarSettings};
+use crate::check::{CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 use crate::planar::Method;
 
 /// What a scenario asks of the run.
@@ -32,7 +32,14 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
             container: table.text("container").to_owned(),
             speed_max_m_per_s: table.number("speed_max_m_per_s"),
         },
-        "no_contact" => CriterionKind::NoContact { objects: table.texts("objects") },
+        "no_contact" => CriterionKind::NoContact { objects: table.texts("objects"), except_allowed: table.flag("except_allowed") },
+        "door_open" => CriterionKind::DoorOpen { object: object(), min_rad: table.number("min_rad") },
+        "arc_followed" => {
+            let of = if table.text("of") == "reference" { Followed::Reference } else { Followed::Tool };
+            CriterionKind::ArcFollowed { object: object(), of, max_m: max_m() }
+        }
+        "hook_kept" => CriterionKind::HookKept { object: object(), max_m: max_m() },
+        "tool_force" => CriterionKind::ToolForce { max_n: table.number("max_n") },
         "clearance" => CriterionKind::Clearance { objects: table.texts("objects"), min_m: table.number("min_m") },
         "planar_clearance" => {
             CriterionKind::PlanarClearance { method: method(table)?, settings: settings(table), min_m: table.number("min_m") }

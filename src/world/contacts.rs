@@ -1,8 +1,10 @@
 //! Keeps book of everything that touches, at every step.
 
+use nalgebra::Vector3;
 use rapier3d_f64::prelude::PhysicsWorld;
 
-use super::parts::{Owner, Parts};
+use super::convert;
+use super::parts::{Owner, Part, Parts};
 
 /// All contacts of one pair of parts during a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,12 +33,15 @@ pub(super) struct ContactBook {
     pub episodes: Vec<ContactEpisode>,
     /// Bodies of the fingers that touch a movable object in this step, with the object.
     pub grips: Vec<(usize, usize)>,
+    /// Force by the objects on fingers and tool in this step, normal to the surfaces that touch (N, world).
+    pub tool_force: Vector3<f64>,
 }
 
 impl ContactBook {
     /// Reads the contacts of the step that ended at `time_s`. `movable` tells which objects move.
     pub(super) fn record(&mut self, engine: &PhysicsWorld, parts: &Parts, movable: &[bool], time_s: f64) {
         self.grips.clear();
+        self.tool_force = Vector3::zeros();
         let step = engine.integration_parameters.dt;
         for pair in engine.narrow_phase.contact_pairs() {
             let force = pair.total_impulse_magnitude() / step;
@@ -47,11 +52,17 @@ impl ContactBook {
             let part = |collider| engine.colliders.get(collider).and_then(|c| parts.of(c.user_data));
             let (Some(a), Some(b)) = (part(pair.collider1), part(pair.collider2)) else { continue };
             // The robot first, then what moves.
-            let (a, b) = if rank(a.1.owner, movable) <= rank(b.1.owner, movable) { (a, b) } else { (b, a) };
+            let robot_is_second = rank(a.1.owner, movable) > rank(b.1.owner, movable);
+            let (a, b) = if robot_is_second { (b, a) } else { (a, b) };
             if let (Owner::Robot { body, finger: true, .. }, Owner::Object(object)) = (a.1.owner, b.1.owner)
                 && movable[object]
             {
                 self.grips.push((body, object));
+            }
+            if let (Owner::Robot { finger: true, .. }, Owner::Object(_)) = (a.1.owner, b.1.owner) {
+                // The engine's impulses are those on the second collider.
+                let on_second = convert::vector_back(pair.total_impulse()) / step;
+                self.tool_force += if robot_is_second { on_second } else { -on_second };
             }
             let key = (a.0, b.0);
             let episode = match self.episodes.iter().position(|e| e.pair == key) {
@@ -60,7 +71,7 @@ impl ContactBook {
                     self.episodes.push(ContactEpisode {
                         a: a.1.name.clone(),
                         b: b.1.name.clone(),
-                        allowed: allowed(a.1.owner, b.1.owner, movable),
+                        allowed: allowed(a.1, b.1),
                         first_time_s: time_s,
                         last_time_s: time_s,
                         max_depth_m: 0.0,
@@ -86,10 +97,10 @@ fn rank(owner: Owner, movable: &[bool]) -> usize {
     }
 }
 
-/// Movable objects may touch the gripper's fingers and lie on things; whether they may touch a particular object is a scenario's criterion.
-fn allowed(a: Owner, b: Owner, movable: &[bool]) -> bool {
-    match (a, b) {
-        (Owner::Robot { finger, .. }, Owner::Object(object)) => finger && movable[object],
+/// Fingers may touch what is there to be held, and objects lie on things; whether they may touch a particular object is a scenario's criterion.
+fn allowed(a: &Part, b: &Part) -> bool {
+    match (a.owner, b.owner) {
+        (Owner::Robot { finger, .. }, Owner::Object(_)) => finger && b.handle,
         (Owner::Object(_), Owner::Object(_)) => true,
         _ => false,
     }

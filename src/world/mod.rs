@@ -3,11 +3,14 @@
 //! Frame: the robot's base frame (x forward, y left, z up); SI units. This is the only room that knows the physics engine.
 
 mod articulation;
+mod cabinet;
 mod clearance;
 mod contacts;
 mod convert;
+mod door;
 mod drive;
 mod error;
+mod hook;
 mod object;
 mod overlap;
 mod parts;
@@ -19,12 +22,13 @@ mod sensors;
 mod simulated_world;
 mod virtual_human;
 
+pub use cabinet::{Cabinet, Grip, door_turn, opening_rad};
 pub use clearance::Clearance;
 pub use contacts::ContactEpisode;
 pub use error::WorldError;
 pub use object::{Object, ObjectKind, Parameters, Quantity, support_height_m};
 pub use physics::PhysicsSettings;
-pub use scene::{ObjectPart, PartShape, initial_pose, object_parts};
+pub use scene::{ObjectPart, PartShape, fixed_parts, initial_pose, object_parts};
 pub use sensors::{EffortSensors, SensorSettings};
 pub use simulated_world::{World, WorldSettings};
-pub use virtual_human::{GraspState, Hand, HandWrench, HumanSettings, pointing_down};
+pub use virtual_human::{GraspState, Hand, HandWrench, HumanSettings, pointing_down, tool_orientation};

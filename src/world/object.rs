@@ -5,6 +5,8 @@
 
 use nalgebra::{Point3, Vector2, Vector3};
 
+use super::Cabinet;
+
 /// The task parameters of one setting by name (for example `block_height_m`), in the order of the scenario file. Values in SI.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parameters(pub Vec<(String, f64)>);
@@ -52,7 +54,7 @@ impl Quantity {
 pub struct Object {
     /// Its name: unique in the scene, used in reports and by way-points.
     pub name: String,
-    /// Centre in the horizontal plane (m).
+    /// Centre in the horizontal plane; of a cabinet, its door's hinge (m).
     pub center_m: Vector2<f64>,
     /// Added to the centre along x (m): the lateral place that may vary from setting to setting.
     pub lateral_offset_m: Quantity,
@@ -114,6 +116,8 @@ pub enum ObjectKind {
         /// Thickness of walls and floor (m).
         wall_thickness_m: f64,
     },
+    /// A fixed cabinet with a door on a vertical hinge and a row of handles.
+    Cabinet(Cabinet),
 }
 
 impl Object {
@@ -128,7 +132,7 @@ impl Object {
     }
 
     /// The point that way-points refer to (m, world): the middle of a table's top, of a block's base top, of a basket's floor top; the centre
-    /// of a ball or box that rests on the surface at `support_height_m`.
+    /// of a ball or box that rests on the surface at `support_height_m`; the middle of a cabinet's handle in use while the door is closed.
     pub fn anchor(&self, parameters: &Parameters, support_height_m: f64) -> Point3<f64> {
         let height = match &self.kind {
             ObjectKind::Table { top_height_m, .. } => *top_height_m,
@@ -136,8 +140,13 @@ impl Object {
             ObjectKind::Ball { radius_m, .. } => support_height_m + radius_m,
             ObjectKind::Box { size_m, .. } => support_height_m + size_m.z / 2.0,
             ObjectKind::Basket { wall_thickness_m, .. } => support_height_m + wall_thickness_m,
+            ObjectKind::Cabinet(cabinet) => cabinet.hinge_height_m(support_height_m),
         };
         let center = self.center(parameters);
+        if let ObjectKind::Cabinet(cabinet) = &self.kind {
+            let hinge = Vector3::new(center.x, center.y, height);
+            return cabinet.handle(center.y, parameters) + hinge;
+        }
         Point3::from(Vector3::new(center.x, center.y, height))
     }
 }

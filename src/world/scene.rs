@@ -5,7 +5,7 @@ use rapier3d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, Rig
 
 use super::parts::{Owner, Part, Parts};
 use super::physics::Layer;
-use super::{Object, ObjectKind, Parameters, convert, support_height_m};
+use super::{Object, ObjectKind, Parameters, convert, door, support_height_m};
 
 /// A part of an object that is drawn and touched: a shape in the object's frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,9 +25,25 @@ pub enum PartShape {
     Box(Vector3<f64>),
     /// A ball of this radius (m).
     Ball(f64),
+    /// An upright bar with round ends: a cylinder along z and two half balls.
+    Capsule {
+        /// Radius (m).
+        radius: f64,
+        /// Half the length of the cylinder (m).
+        half_length: f64,
+    },
+}
+
+/// The parts of `object` that stand still although the object moves, in the frame in which [`initial_pose`] puts it: a cabinet's walls.
+pub fn fixed_parts(object: &Object) -> Vec<ObjectPart> {
+    match &object.kind {
+        ObjectKind::Cabinet(cabinet) => cabinet.walls(),
+        _ => Vec::new(),
+    }
 }
 
 /// The parts of `object` in its own frame, whose origin is on the surface it stands on (a ball's and a box's: its centre), axes as the world's.
+/// Of a cabinet: its door with the handles, in the frame of the hinge.
 pub fn object_parts(object: &Object, parameters: &Parameters) -> Vec<ObjectPart> {
     match &object.kind {
         ObjectKind::Table { size_m, .. } => vec![slab("", [0.0, 0.0, -TABLE_THICKNESS_M / 2.0], [size_m.x, size_m.y, TABLE_THICKNESS_M])],
@@ -57,6 +73,10 @@ pub fn object_parts(object: &Object, parameters: &Parameters) -> Vec<ObjectPart>
                 slab("left_wall", [0.0, y, t + h / 2.0], [ix, t, h]),
             ]
         }
+        ObjectKind::Cabinet(cabinet) => {
+            let handles = cabinet.handle_parts(object.center(parameters).y, parameters);
+            std::iter::once(cabinet.panel()).chain(handles).collect()
+        }
     }
 }
 
@@ -70,6 +90,15 @@ fn slab(name: &'static str, center: [f64; 3], size: [f64; 3]) -> ObjectPart {
     }
 }
 
+/// The engine's shape of a part.
+pub(super) fn engine_shape(shape: &PartShape) -> SharedShape {
+    match *shape {
+        PartShape::Box(half) => SharedShape::cuboid(half.x, half.y, half.z),
+        PartShape::Ball(radius) => SharedShape::ball(radius),
+        PartShape::Capsule { radius, half_length } => SharedShape::capsule_z(half_length, radius),
+    }
+}
+
 /// Where the object's frame starts (`world_from_object`).
 pub fn initial_pose(object: &Object, parameters: &Parameters, support_height: f64) -> Isometry3<f64> {
     let center = object.center(parameters);
@@ -77,16 +106,22 @@ pub fn initial_pose(object: &Object, parameters: &Parameters, support_height: f6
         ObjectKind::Table { top_height_m, .. } => top_height_m,
         ObjectKind::Ball { radius_m, .. } => support_height + radius_m,
         ObjectKind::Box { size_m, .. } => support_height + size_m.z / 2.0,
+        ObjectKind::Cabinet(ref cabinet) => cabinet.hinge_height_m(support_height),
         _ => support_height,
     };
     Isometry3::from_parts(Point3::new(center.x, center.y, height).into(), UnitQuaternion::identity())
 }
 
-/// Builds all objects; returns the engine's body of each in their order.
+/// Builds all objects; returns the engine's body of each in their order, of a cabinet that of its door.
 pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &Parameters, parts: &mut Parts) -> Vec<RigidBodyHandle> {
     let support = support_height_m(objects);
     let mut bodies = Vec::with_capacity(objects.len());
     for (index, object) in objects.iter().enumerate() {
+        let pose = initial_pose(object, parameters, support);
+        if let ObjectKind::Cabinet(cabinet) = &object.kind {
+            bodies.push(door::build(engine, (index, object), cabinet, &pose, parameters, parts));
+            continue;
+        }
         let (builder, layer, friction, mass_kg) = match object.kind {
             ObjectKind::Ball { friction, mass_kg, rolling_damping_per_s, .. } => {
                 (RigidBodyBuilder::dynamic().can_sleep(false).angular_damping(rolling_damping_per_s), Layer::Movable, friction, mass_kg)
@@ -95,15 +130,11 @@ pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &
             ObjectKind::Table { friction, .. } => (RigidBodyBuilder::fixed(), Layer::Scenery, friction, 0.0),
             _ => (RigidBodyBuilder::fixed(), Layer::Scenery, FIXED_FRICTION, 0.0),
         };
-        let body = engine.insert_body(builder.pose(convert::pose(&initial_pose(object, parameters, support))));
+        let body = engine.insert_body(builder.pose(convert::pose(&pose)));
         for part in object_parts(object, parameters) {
-            let shape = match part.shape {
-                PartShape::Box(half) => SharedShape::cuboid(half.x, half.y, half.z),
-                PartShape::Ball(radius) => SharedShape::ball(radius),
-            };
             let name = if part.name.is_empty() { object.name.clone() } else { format!("{}.{}", object.name, part.name) };
-            let id = parts.add(Part { name, owner: Owner::Object(index) });
-            let collider = ColliderBuilder::new(shape)
+            let id = parts.add(Part { name, owner: Owner::Object(index), handle: object.is_movable() });
+            let collider = ColliderBuilder::new(engine_shape(&part.shape))
                 .position(convert::pose(&part.object_from_part))
                 .friction(friction)
                 .mass(mass_kg)

@@ -7,6 +7,7 @@ use twox_hash::XxHash3_64;
 
 use super::clearance::ClearanceBook;
 use super::contacts::ContactBook;
+use super::hook::Hook;
 use super::parts::Parts;
 use super::robot_body::{Limbs, RobotBody};
 use super::{HandWrench, Object, ObjectKind, Parameters, PhysicsSettings, WorldError, convert, overlap, physics, scene};
@@ -52,6 +53,7 @@ pub struct World {
     pub(super) clearance: ClearanceBook,
     pub(super) clearance_every: u64,
     pub(super) held: Vec<usize>,
+    pub(super) hook: Option<Hook>,
     pub(super) joint_state: (Vec<f64>, Vec<f64>),
     pub(super) hand: HandWrench,
     pub(super) hasher: XxHash3_64,
@@ -81,6 +83,7 @@ impl World {
         let watched: Vec<bool> = settings.objects.iter().map(|o| matches!(o.kind, ObjectKind::UBlock { .. })).collect();
         let names: Vec<String> = settings.objects.iter().map(|o| o.name.clone()).collect();
         let clearance = ClearanceBook::new(&engine, &parts, &names, &watched, &movable);
+        let hook = hook_of(settings, &limbs, &robot, &objects);
         let n = limbs.working.len();
         let mut world = Self {
             engine,
@@ -94,6 +97,7 @@ impl World {
             clearance,
             clearance_every: (settings.clearance_interval_s / settings.physics.step_s).round() as u64,
             held: Vec::new(),
+            hook,
             joint_state: (vec![0.0; n], vec![0.0; n]),
             hand: HandWrench::default(),
             hasher: XxHash3_64::with_seed(0),
@@ -117,8 +121,11 @@ impl World {
         }
     }
 
-    /// Makes the gripper seek `opening` (0 closed … 1 open) with its limited force.
+    /// Makes the gripper seek `opening` (0 closed … 1 open) with its limited force; a hook's clamp closes below one half.
     pub fn command_gripper(&mut self, opening: f64) {
+        if let Some(hook) = &mut self.hook {
+            hook.closed = opening < 0.5;
+        }
         if let (Some((closed, open)), Some(&leader)) = (self.finger_range, self.limbs.fingers.first()) {
             self.robot.working.seek(&mut self.engine, leader, closed + opening.clamp(0.0, 1.0) * (open - closed));
         }
@@ -139,9 +146,15 @@ impl World {
             idle.act(&mut self.engine);
         }
         self.apply_hand();
+        if let Some(hook) = &mut self.hook {
+            hook.act(&mut self.engine);
+        }
         self.step += 1;
         physics::step(&mut self.engine, self.step)?;
         self.robot.working.settle_efforts(&self.engine);
+        if let Some(hook) = &mut self.hook {
+            hook.read(&self.engine);
+        }
         self.read_joints();
         let time_s = self.time_s();
         self.contacts.record(&self.engine, &self.parts, &self.movable, time_s);
@@ -188,6 +201,19 @@ impl World {
             }
         }
     }
+}
+
+/// The hook, when the robot has no fingers and there is a cabinet to open.
+fn hook_of(settings: &WorldSettings, limbs: &Limbs, robot: &RobotBody, bodies: &[RigidBodyHandle]) -> Option<Hook> {
+    if !limbs.fingers.is_empty() {
+        return None;
+    }
+    settings.objects.iter().zip(bodies).find_map(|(object, &door)| {
+        let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
+        let hinge_y_m = object.center(settings.parameters).y;
+        let tool = (robot.bodies[limbs.tool_body], limbs.body_from_tool);
+        Some(Hook::new(cabinet, settings.parameters, hinge_y_m, door, tool))
+    })
 }
 
 /// Pose and velocity of a body as plain numbers.

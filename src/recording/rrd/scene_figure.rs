@@ -1,7 +1,7 @@
 //! The objects of the scene.
 
 use nalgebra::Isometry3;
-use rerun::{Boxes3D, Color, Ellipsoids3D, FillMode};
+use rerun::{Boxes3D, Capsules3D, Color, Ellipsoids3D, FillMode};
 
 use super::convert;
 use super::entity_path::{OBJECT, OBJECT_SHAPE};
@@ -25,13 +25,18 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
 
 fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> Result<(), Fault> {
     let color = color(object);
-    let (mut boxes, mut balls) = (Vec::new(), Vec::new());
+    let (mut boxes, mut balls, mut bars) = (Vec::new(), Vec::new(), Vec::new());
     for part in object_parts(object, &experiment.parameters) {
         let pose = part.object_from_part;
         let place = convert::vector(&pose.translation.vector);
         match part.shape {
             PartShape::Box(half) => boxes.push((place, convert::quaternion(&pose.rotation), convert::vector(&half))),
             PartShape::Ball(radius) => balls.push((place, radius as f32)),
+            PartShape::Capsule { radius, half_length } => {
+                // A capsule of the viewer begins at its origin.
+                let foot = pose * nalgebra::Point3::new(0.0, 0.0, -half_length);
+                bars.push((convert::vector(&foot.coords), convert::quaternion(&pose.rotation), radius as f32, 2.0 * half_length as f32));
+            }
         }
     }
     if !boxes.is_empty() {
@@ -47,6 +52,14 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_fill_mode(FillMode::Solid);
         recorder.always(OBJECT_SHAPE.of(&[&object.name, "balls"]), &solid)?;
     }
+    if !bars.is_empty() {
+        let solid = Capsules3D::from_lengths_and_radii(bars.iter().map(|b| b.3), bars.iter().map(|b| b.2))
+            .with_translations(bars.iter().map(|b| b.0))
+            .with_quaternions(bars.iter().map(|b| b.1))
+            .with_colors([color])
+            .with_fill_mode(FillMode::Solid);
+        recorder.always(OBJECT_SHAPE.of(&[&object.name, "bars"]), &solid)?;
+    }
     Ok(())
 }
 
@@ -58,5 +71,6 @@ fn color(object: &Object) -> Color {
         ObjectKind::Ball { .. } => Color::from_rgb(250, 214, 40),
         ObjectKind::Basket { .. } => Color::from_rgb(140, 100, 66),
         ObjectKind::Box { .. } => Color::from_rgb(214, 108, 70),
+        ObjectKind::Cabinet(_) => Color::from_rgb(172, 152, 122),
     }
 }

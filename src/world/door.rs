@@ -1,0 +1,84 @@
+//! A cabinet in the engine: walls that stand still, and a door on a hinge with dry friction, damping and limits.
+//!
+//! The hinge is a reduced-coordinate joint, so the door has no other way to go and its friction and damping are implicit.
+
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use rapier3d_f64::prelude::{
+    ColliderBuilder, GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
+};
+
+use super::cabinet::Cabinet;
+use super::parts::{Owner, Part, Parts};
+use super::physics::Layer;
+use super::scene::{ObjectPart, engine_shape};
+use super::{Object, Parameters, convert};
+
+/// Friction of walls, door and handles.
+const SURFACE_FRICTION: f64 = 0.4;
+
+/// Which object of the scene a part belongs to.
+struct Owned<'a> {
+    index: usize,
+    object: &'a Object,
+    layer: Layer,
+    body: RigidBodyHandle,
+}
+
+/// Builds the cabinet `object`, number `index` of the scene, with its hinge at `world_from_hinge`. Returns the door's body.
+pub(super) fn build(
+    engine: &mut PhysicsWorld,
+    (index, object): (usize, &Object),
+    cabinet: &Cabinet,
+    world_from_hinge: &Isometry3<f64>,
+    parameters: &Parameters,
+    parts: &mut Parts,
+) -> RigidBodyHandle {
+    let pose = convert::pose(world_from_hinge);
+    let walls = engine.insert_body(RigidBodyBuilder::fixed().pose(pose));
+    let door = engine.insert_body(RigidBodyBuilder::dynamic().pose(pose).can_sleep(false));
+    let fixed = Owned { index, object, layer: Layer::Scenery, body: walls };
+    for part in cabinet.walls() {
+        insert(engine, &fixed, &part, 0.0, false, parts);
+    }
+    let moving = Owned { layer: Layer::Movable, body: door, ..fixed };
+    insert(engine, &moving, &cabinet.panel(), cabinet.mass_kg, false, parts);
+    for part in cabinet.handle_parts(world_from_hinge.translation.y, parameters) {
+        insert(engine, &moving, &part, 0.0, true, parts);
+    }
+    hang(engine, cabinet, walls, door);
+    door
+}
+
+/// Puts the door on its hinge. The joint's own axis is its frames' x, which points down: the door opens with a positive angle.
+fn hang(engine: &mut PhysicsWorld, cabinet: &Cabinet, walls: RigidBodyHandle, door: RigidBodyHandle) {
+    let down = Isometry3::from_parts(Vector3::zeros().into(), UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_2));
+    let hinge = GenericJointBuilder::new(JointAxesMask::LOCKED_REVOLUTE_AXES)
+        .local_frame1(convert::pose(&down))
+        .local_frame2(convert::pose(&down))
+        .contacts_enabled(false)
+        .limits(JointAxis::AngX, [0.0, cabinet.opening_max_rad])
+        .build();
+    let PhysicsWorld { bodies, colliders, multibody_joints, .. } = engine;
+    let Some(handle) = multibody_joints.insert(walls, door, hinge, true) else { return };
+    if let Some(body) = bodies.get_mut(door) {
+        body.recompute_mass_properties_from_colliders(colliders);
+    }
+    let Some((multibody, _)) = multibody_joints.get_mut(handle) else { return };
+    multibody.set_self_contacts_enabled(false);
+    multibody.damping_mut()[0] = cabinet.damping_nms_per_rad;
+    multibody.frictions_mut()[0] = cabinet.friction_nm;
+    multibody.forward_kinematics(bodies, true);
+    multibody.update_rigid_bodies(bodies, true);
+}
+
+fn insert(engine: &mut PhysicsWorld, owned: &Owned, part: &ObjectPart, mass_kg: f64, handle: bool, parts: &mut Parts) {
+    let name = format!("{}.{}", owned.object.name, part.name);
+    let id = parts.add(Part { name, owner: Owner::Object(owned.index), handle });
+    let collider = ColliderBuilder::new(engine_shape(&part.shape))
+        .position(convert::pose(&part.object_from_part))
+        .friction(SURFACE_FRICTION)
+        .mass(mass_kg)
+        .collision_groups(owned.layer.groups())
+        .user_data(id as u128);
+    engine.insert_collider(collider, Some(owned.body));
+}
