@@ -17,7 +17,7 @@ const ROWS: [&[&str]; 9] = [
 ];
 
 /// Foreign crates that only some rooms may know.
-const FOREIGN: [(&str, &[&str]); 13] = [
+const FOREIGN: [(&str, &[&str]); 14] = [
     ("rapier3d_f64", &["world"]),
     ("parry3d_f64", &["world"]),
     ("rerun", &["recording"]),
@@ -30,6 +30,7 @@ const FOREIGN: [(&str, &[&str]); 13] = [
     ("clap", &["cli"]),
     ("indicatif", &["cli"]),
     ("anstream", &["cli"]),
+    ("quick_junit", &["report"]),
     ("roxmltree", &["robot"]),
     ("urdf_rs", &["robot"]),
 ];

@@ -4,9 +4,11 @@ mod criterion;
 mod door;
 mod judge;
 mod judge_planar;
+mod place;
 mod windows;
 
 pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 pub use judge::judge;
 pub use judge_planar::judge_planar;
+pub use place::Place;
 pub use windows::{Window, compliance_windows, human_windows};

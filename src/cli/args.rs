@@ -24,6 +24,8 @@ pub(super) struct Cli {
 pub(super) enum Command {
     /// Teach, learn, execute, judge and record: one run folder per scenario
     Run(Paths),
+    /// Run without recording or display and judge: what a continuous integration calls
+    Check(Check),
     /// Check scenarios and what they need, without simulating: all faults at once
     Validate(Paths),
     /// Learn a skill from a dataset, simulated or your own
@@ -44,6 +46,17 @@ pub(super) struct Paths {
     /// Scenario files, folders of them, or patterns with `*` and `?` in the file name
     #[arg(required = true, value_name = "SCENARIO")]
     pub paths: Vec<PathBuf>,
+}
+
+/// What is checked, and where the verdict goes.
+#[derive(Debug, Args)]
+pub(super) struct Check {
+    /// Scenario files, folders of them, or patterns with `*` and `?` in the file name
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Write the verdict as JUnit to this file, whatever else is printed
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
 }
 
 /// Where scenarios are looked for.
@@ -83,9 +96,9 @@ pub(super) struct Global {
     /// Use this many threads; the result does not depend on it
     #[arg(long, global = true, env = "CPDMP_JOBS", value_name = "N", value_parser = threads)]
     pub jobs: Option<usize>,
-    /// Print results for people, or as JSON, one document per line
+    /// Print results for people, as JSON (one document per line), or of `check` as JUnit or as GitHub annotations
     #[arg(long, global = true, env = "CPDMP_FORMAT", value_enum, default_value = "human")]
-    pub format: Format,
+    pub format: Printed,
     /// Tell more: also what is odd about the robot's file
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
@@ -100,13 +113,38 @@ pub(super) struct Global {
     pub no_progress: bool,
 }
 
-/// For whom results are printed.
+/// How results are printed, as typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Printed {
+    /// For people.
+    Human,
+    /// For programs.
+    Json,
+    /// For continuous integrations.
+    Junit,
+    /// For GitHub's workflows: annotations at the lines of the scenario.
+    Github,
+}
+
+/// For whom the results of most commands are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Format {
     /// For people.
     Human,
     /// For programs.
     Json,
+}
+
+impl Printed {
+    /// For whom that is.
+    pub fn format(self) -> Format {
+        if self == Self::Human { Format::Human } else { Format::Json }
+    }
+
+    /// Whether only the verdicts of `check` can be printed like that.
+    pub fn is_for_verdicts(self) -> bool {
+        matches!(self, Self::Junit | Self::Github)
+    }
 }
 
 /// When output is coloured.

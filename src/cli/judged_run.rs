@@ -37,6 +37,7 @@ pub(super) fn judged_run(scenario: &Scenario, progress: &dyn Progress) -> Judged
         Work::Arm(experiment) => arm(experiment, scenario, progress),
         Work::Planar(planar) => plane(planar, scenario, progress),
     };
+    run.report.locate(|key| scenario.places.get(key).cloned());
     if run.left.is_some() {
         run.report.warnings.extend(scenario.warnings.iter().map(ToString::to_string));
     }

@@ -4,6 +4,7 @@
 //! pipe is no error, and a panic is a bug that is reported as one.
 
 mod args;
+mod check;
 mod explain;
 mod failure;
 mod files;
@@ -43,12 +44,17 @@ pub fn main() -> ExitCode {
 
 fn dispatch(cli: &Cli) -> Outcome {
     let terminal = Terminal::new(&cli.global);
+    if cli.global.format.is_for_verdicts() && !matches!(cli.command, Command::Check(_)) {
+        terminal.error("error: --format junit and --format github are for cpdmp check: this command prints human or json\n");
+        return Outcome::Usage;
+    }
     if let Some(jobs) = cli.global.jobs {
         // Fails only when the pool is there already, and then nobody has asked for another size.
         _ = rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global();
     }
     let outcome = match &cli.command {
         Command::Run(arguments) => run::run(&arguments.paths, &cli.global, &terminal),
+        Command::Check(arguments) => check::check(arguments, &cli.global, &terminal),
         Command::Validate(arguments) => validate::validate(&arguments.paths, &cli.global, &terminal),
         Command::Learn(arguments) => learn::learn(arguments, &cli.global, &terminal),
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),

@@ -69,3 +69,21 @@ impl Drop for Shown<'_> {
         self.replace(None);
     }
 }
+
+/// Progress of one of many runs at the same time: nothing is shown of it but how long it takes.
+pub(super) struct Clock(Instant);
+
+impl Clock {
+    pub fn start() -> Self {
+        Self(Instant::now())
+    }
+}
+
+impl Progress for Clock {
+    fn phase(&self, _name: &str, _steps: u64) {}
+    fn advance(&self, _steps: u64) {}
+    fn note(&self, _text: &str) {}
+    fn elapsed_s(&self) -> f64 {
+        self.0.elapsed().as_secs_f64()
+    }
+}

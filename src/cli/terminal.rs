@@ -36,7 +36,7 @@ impl Terminal {
             unicode: unicode(),
             width: std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok()).unwrap_or(120).clamp(40, 200),
             quiet: global.quiet,
-            format: global.format,
+            format: global.format.format(),
             bars: !global.no_progress && !global.quiet && std::io::stderr().is_terminal(),
             failed: AtomicBool::new(false),
         }

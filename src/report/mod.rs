@@ -3,10 +3,14 @@
 //! [`RunReport`] is the only source: `report.json` is its serialised form, and the table on the terminal is drawn from it. [`RunFolder`] is
 //! where a run leaves its files: written beside, then renamed, so that there is never half of one.
 
+mod check_report;
+mod check_text;
 mod choice_section;
 mod comparison;
 mod data_section;
 mod error_section;
+mod github;
+mod junit;
 mod learn_report;
 mod learn_text;
 mod lock;
@@ -22,11 +26,16 @@ mod sections;
 mod skill_section;
 mod table;
 mod text;
+mod verdict;
 
+pub use check_report::{CheckReport, Checked, InputFault};
+pub use check_text::check_text;
 pub use choice_section::{Candidate, ChoiceSection};
 pub use comparison::{ComparisonReport, MethodSummary, MovementReport, SettingReport};
 pub use data_section::{ColumnRow, DataSection, DemonstrationRow};
 pub use error_section::{ErrorRow, ValidationRow, ValidationSection};
+pub use github::github;
+pub use junit::junit;
 pub use learn_report::LearnReport;
 pub use manifest::{FileHash, Host, Manifest, hash_file};
 pub use outcome::Outcome;

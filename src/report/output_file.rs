@@ -13,6 +13,18 @@ pub enum Replaceable {
     Skill,
     /// Samples: its first line names a column `time_s`, or it is a Parquet file.
     Samples,
+    /// A JUnit report.
+    Junit,
+}
+
+impl Replaceable {
+    fn describe(self) -> &'static str {
+        match self {
+            Self::Skill => "a skill",
+            Self::Samples => "a file of samples",
+            Self::Junit => "a JUnit report",
+        }
+    }
 }
 
 /// Bytes at the beginning of a file that say what it is.
@@ -24,8 +36,7 @@ const BEGINNING: u64 = 4096;
 /// When something else is there, or the folder cannot be made.
 pub fn prepare_file(path: &Path, replaceable: Replaceable) -> Result<(), OutputError> {
     if path.symlink_metadata().is_ok() && !is_replaceable(path, replaceable) {
-        let what = if replaceable == Replaceable::Skill { "a skill" } else { "a file of samples" };
-        return Err(OutputError::NotOurs { path: path.to_path_buf(), what });
+        return Err(OutputError::NotOurs { path: path.to_path_buf(), what: replaceable.describe() });
     }
     let folder = folder(path);
     fs::create_dir_all(folder).map_err(OutputError::io(folder))
@@ -66,6 +77,7 @@ fn is_replaceable(path: &Path, replaceable: Replaceable) -> bool {
     let text = String::from_utf8_lossy(&bytes);
     match replaceable {
         Replaceable::Skill => text.trim_start().starts_with('{') && text.contains("\"cpdmp-skill\""),
+        Replaceable::Junit => text.contains("<testsuites"),
         Replaceable::Samples => {
             bytes.starts_with(b"PAR1") || text.lines().next().is_some_and(|line| line.split(',').any(|c| c == "time_s"))
         }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{ComparisonReport, Outcome};
 use super::{planar, sections};
-use crate::check::Criterion;
+use crate::check::{Criterion, Place};
 use crate::planar::PlanarOutcome;
 use crate::simulation::{Experiment, RunOutcome};
 
@@ -90,6 +90,8 @@ pub struct CriterionReport {
     pub margin: Option<f64>,
     /// When it first failed (s).
     pub first_failed_time_s: Option<f64>,
+    /// Where it was typed; `null` for one from the command line.
+    pub place: Option<Place>,
 }
 
 /// All contacts of one pair.
@@ -239,6 +241,13 @@ impl RunReport {
     /// The report of a run that could not be finished.
     pub fn failed(name: &str, seed: u64, outcome: Outcome, error: &str) -> Self {
         Self { error: Some(error.to_owned()), ..Self::empty(name, seed, outcome) }
+    }
+
+    /// Adds where things were typed; `find` knows the place of a key such as `criterion.goal`.
+    pub fn locate(&mut self, find: impl Fn(&str) -> Option<Place>) {
+        for criterion in &mut self.criteria {
+            criterion.place = find(&format!("criterion.{}", criterion.name));
+        }
     }
 
     /// The same report with another outcome.

@@ -30,6 +30,7 @@ pub(super) fn criterion(criterion: &Criterion) -> CriterionReport {
         unit: criterion.unit,
         margin: finite(criterion.margin),
         first_failed_time_s: criterion.first_failed_time_s.and_then(finite),
+        place: None,
     }
 }
 

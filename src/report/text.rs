@@ -5,10 +5,10 @@ use super::comparison;
 use super::run_report::{CriterionReport, RunReport};
 use super::table::figure;
 
-const GREEN: &str = "\u{1b}[32m";
-const RED: &str = "\u{1b}[31m";
-const BOLD: &str = "\u{1b}[1m";
-const PLAIN: &str = "\u{1b}[0m";
+pub(super) const GREEN: &str = "\u{1b}[32m";
+pub(super) const RED: &str = "\u{1b}[31m";
+pub(super) const BOLD: &str = "\u{1b}[1m";
+pub(super) const PLAIN: &str = "\u{1b}[0m";
 
 /// The report as text with ANSI colours, which the terminal strips where they are not wanted.
 pub fn text(report: &RunReport) -> String {

@@ -13,6 +13,7 @@ use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
 use super::fault::{Code, Fault, Severity};
 use super::layer;
 use super::overrides;
+use super::places::Places;
 use super::resolved;
 use super::roots::Roots;
 use super::schema::{SCENARIO, SCHEMA_VERSION};
@@ -28,6 +29,8 @@ pub struct Scenario {
     pub work: Work,
     /// What the run must show.
     pub criteria: Vec<CriterionSpec>,
+    /// Where its parts were typed.
+    pub places: Places,
     /// What is written to the run folder.
     pub recording: RecordingPlan,
     /// What it shows, in one line; may be empty.
@@ -75,6 +78,7 @@ impl Scenario {
             Some(filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => Ok(Self {
                 work: work(&filled),
                 criteria: build_criteria::criteria(&filled),
+                places: Places::of(&filled, &sources),
                 recording: build::recording(&filled),
                 description: filled.text("description").to_owned(),
                 resolved: resolved::write(&check_planar::without_arm(filled)),

@@ -1,5 +1,6 @@
 //! The real binary, as a person or a CI job calls it.
 
+mod check;
 mod commands;
 mod generate;
 mod inspect;

@@ -1,0 +1,14 @@
+//! Where in a scenario file something is written.
+
+use serde::Serialize;
+
+/// A place in a scenario file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Place {
+    /// The file, as the user named it.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+}

@@ -1,0 +1,89 @@
+//! `cpdmp check`: runs without recording or display and judges, for continuous integrations.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::args::{Check, Global, Printed};
+use super::judged_run::judged_run;
+use super::load::options;
+use super::progress::Clock;
+use super::select::select;
+use super::terminal::Terminal;
+use crate::report::{CheckReport, Checked, InputFault, Outcome, Replaceable, check_text, github, junit, prepare_file, replace_file};
+use crate::scenario::{Diagnostic, LoadOptions, Scenario, Severity};
+use crate::simulation::Progress;
+
+/// Checks everything that the arguments name, on all cores. One that cannot be run does not keep the others from being checked; the worst
+/// outcome counts.
+pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> Outcome {
+    // Whether the verdict can be written is known before minutes are spent on it.
+    if let Some(Err(error)) = arguments.junit.as_deref().map(|path| prepare_file(path, Replaceable::Junit)) {
+        terminal.error(&format!("error: {error}\n"));
+        return error.outcome();
+    }
+    let files = match select(&arguments.paths, terminal) {
+        Ok(files) => files,
+        Err(outcome) => return outcome,
+    };
+    let clock = Clock::start();
+    let options = options(global);
+    let checks = files.par_iter().map(|path| {
+        let checked = checked(path, &options, terminal);
+        terminal.note(&format!("{}: {} ({:.1} s)\n", checked.path, checked.outcome.name().replace('_', " "), checked.wall_s));
+        checked
+    });
+    let report = CheckReport::of(checks.collect(), clock.elapsed_s());
+    tell(&report, global, terminal);
+    let written = arguments.junit.as_deref().map(|path| replace_file(path, junit(&report).as_bytes(), Replaceable::Junit));
+    match written {
+        Some(Err(error)) => {
+            terminal.error(&format!("error: {error}\n"));
+            report.outcome.max(error.outcome())
+        }
+        _ => report.outcome,
+    }
+}
+
+fn checked(path: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
+    let clock = Clock::start();
+    let name = path.display().to_string();
+    match Scenario::load(path, options) {
+        Err(invalid) => {
+            terminal.faults(&invalid.0);
+            Checked::refused(name, faults(&invalid.0), clock.elapsed_s())
+        }
+        Ok(scenario) => {
+            let run = judged_run(&scenario, &clock);
+            Checked::run(name, run.report, faults(&scenario.warnings), clock.elapsed_s())
+        }
+    }
+}
+
+fn faults(diagnostics: &[Diagnostic]) -> Vec<InputFault> {
+    let fault = |found: &Diagnostic| InputFault {
+        code: found.code.describe().0.to_owned(),
+        warning: found.severity == Severity::Warning,
+        file: found.file.clone(),
+        line: found.line,
+        column: found.column,
+        message: told(found),
+    };
+    diagnostics.iter().map(fault).collect()
+}
+
+/// What is wrong, what was expected, and how to mend it.
+fn told(found: &Diagnostic) -> String {
+    let expected = found.expected.as_ref().map(|expected| format!("expected {expected}"));
+    let parts = [Some(found.message.clone()), expected, found.help.clone()];
+    parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
+fn tell(report: &CheckReport, global: &Global, terminal: &Terminal) {
+    match global.format {
+        Printed::Human => terminal.result(&check_text(report)),
+        Printed::Json => terminal.json(report),
+        Printed::Junit => terminal.result(&junit(report)),
+        Printed::Github => terminal.result(&github(report)),
+    }
+}

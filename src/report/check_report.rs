@@ -1,0 +1,117 @@
+//! What `cpdmp check` found: one report for all scenarios, from which every format is written.
+
+use serde::Serialize;
+
+use super::{CollisionReport, CriterionReport, Outcome, RunReport};
+
+/// The version of this format.
+const SCHEMA_VERSION: u32 = 1;
+
+/// Everything that one call of `check` has to say. Keys are only ever added.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CheckReport {
+    /// Version of this format.
+    pub schema_version: u32,
+    /// Version of the program.
+    pub version: &'static str,
+    /// The worst outcome of all checks.
+    pub outcome: Outcome,
+    /// The exit code that belongs to it.
+    pub exit_code: u8,
+    /// Wall time of all checks together (s).
+    pub wall_s: f64,
+    /// Every check, in the order of the arguments.
+    pub checks: Vec<Checked>,
+}
+
+/// One scenario that was checked.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Checked {
+    /// What was checked, as the user named it.
+    pub path: String,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The exit code that belongs to it.
+    pub exit_code: u8,
+    /// Wall time (s); checks that ran at the same time shared the machine.
+    pub wall_s: f64,
+    /// What is wrong or odd about the input.
+    pub faults: Vec<InputFault>,
+    /// The run; `null` when the input cannot be used.
+    pub report: Option<RunReport>,
+}
+
+/// Something wrong or odd about a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InputFault {
+    /// Its code, which `cpdmp explain` knows.
+    pub code: String,
+    /// Whether the file can be used all the same.
+    pub warning: bool,
+    /// The file.
+    pub file: String,
+    /// Line, from 1, when it is at a place.
+    pub line: Option<usize>,
+    /// Column, from 1.
+    pub column: Option<usize>,
+    /// What is wrong, what was expected, and how to mend it.
+    pub message: String,
+}
+
+impl CheckReport {
+    /// From all checks, which took `wall_s` (s) together.
+    #[must_use]
+    pub fn of(checks: Vec<Checked>, wall_s: f64) -> Self {
+        let outcome = checks.iter().map(|check| check.outcome).max().unwrap_or(Outcome::NothingSelected);
+        Self { schema_version: SCHEMA_VERSION, version: env!("CARGO_PKG_VERSION"), outcome, exit_code: outcome.exit_code(), wall_s, checks }
+    }
+}
+
+impl Checked {
+    /// A run with its report.
+    #[must_use]
+    pub fn run(path: String, report: RunReport, faults: Vec<InputFault>, wall_s: f64) -> Self {
+        let (outcome, exit_code) = (report.outcome, report.exit_code);
+        Self { path, outcome, exit_code, wall_s, faults, report: Some(report) }
+    }
+
+    /// Input that cannot be used.
+    #[must_use]
+    pub fn refused(path: String, faults: Vec<InputFault>, wall_s: f64) -> Self {
+        let outcome = Outcome::InvalidInput;
+        Self { path, outcome, exit_code: outcome.exit_code(), wall_s, faults, report: None }
+    }
+
+    /// Its criteria; none when there was no run.
+    pub(super) fn criteria(&self) -> impl Iterator<Item = &CriterionReport> {
+        self.report.iter().flat_map(|report| &report.criteria)
+    }
+
+    /// Its contacts that the scene does not allow.
+    pub(super) fn refused_contacts(&self) -> impl Iterator<Item = &CollisionReport> {
+        self.report.iter().flat_map(|report| &report.collisions).filter(|contact| !contact.allowed)
+    }
+
+    /// Why there are no answers, when there are none.
+    pub(super) fn error(&self) -> Option<String> {
+        match &self.report {
+            Some(report) => report.error.clone(),
+            None => {
+                let errors = self.faults.iter().filter(|fault| !fault.warning);
+                Some(errors.map(InputFault::line).collect::<Vec<_>>().join("\n"))
+            }
+        }
+    }
+}
+
+impl InputFault {
+    /// `file:line:column: error[code]: message`.
+    pub(super) fn line(&self) -> String {
+        let place = match (self.line, self.column) {
+            (Some(line), Some(column)) => format!("{}:{line}:{column}", self.file),
+            _ => self.file.clone(),
+        };
+        let kind = if self.warning { "warning" } else { "error" };
+        format!("{place}: {kind}[{}]: {}", self.code, self.message)
+    }
+}

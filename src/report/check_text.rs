@@ -1,0 +1,80 @@
+//! The report of `check` for people: one table for all, and below it what is not as expected.
+
+use super::check_report::{CheckReport, Checked};
+use super::table::{figure, table};
+use super::text::{BOLD, GREEN, PLAIN, RED};
+use super::{ClearanceReport, CriterionReport, Outcome, verdict};
+
+/// The report as text with ANSI colours, which the terminal strips where they are not wanted.
+#[must_use]
+pub fn check_text(report: &CheckReport) -> String {
+    let heading = ["check", "seed", "outcome", "as expected", "smallest margin", "nearest", "refused contacts", "wall"];
+    let rows = std::iter::once(heading.map(str::to_owned).to_vec()).chain(report.checks.iter().map(row));
+    let mut lines = table(&rows.collect::<Vec<_>>());
+    lines.push(String::new());
+    for check in report.checks.iter().filter(|check| check.outcome != Outcome::Passed) {
+        lines.extend(complaint(check));
+        lines.push(String::new());
+    }
+    lines.push(summary(report));
+    lines.join("\n") + "\n"
+}
+
+fn row(check: &Checked) -> Vec<String> {
+    let dash = || "-".to_owned();
+    let outcome = check.outcome.name().replace('_', " ");
+    let wall = format!("{:.1} s", check.wall_s);
+    let Some(report) = &check.report else {
+        return vec![check.path.clone(), dash(), outcome, dash(), dash(), dash(), dash(), wall];
+    };
+    let required = report.criteria.iter().filter(|criterion| criterion.required);
+    let met = required.clone().filter(|criterion| criterion.as_expected).count();
+    vec![
+        check.path.clone(),
+        report.seed.to_string(),
+        outcome,
+        format!("{met} of {}", required.count()),
+        tightest(&report.criteria).unwrap_or_else(dash),
+        nearest(&report.clearance).unwrap_or_else(dash),
+        check.refused_contacts().count().to_string(),
+        wall,
+    ]
+}
+
+/// The required criterion that comes nearest to its limit, or lies furthest beyond it, relative to the limit.
+fn tightest(criteria: &[CriterionReport]) -> Option<String> {
+    let expected = criteria.iter().filter(|criterion| criterion.required && criterion.expect == "pass");
+    let relative = |criterion: &CriterionReport| {
+        let (margin, limit) = (criterion.margin?, criterion.limit?);
+        (limit != 0.0).then(|| margin / limit.abs())
+    };
+    let rated = expected.filter_map(|criterion| Some((criterion, relative(criterion)?)));
+    let (criterion, _) = rated.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let margin = criterion.margin?;
+    Some(format!("{} {}{} {}", criterion.name, if margin < 0.0 { "" } else { "+" }, figure(margin), criterion.unit))
+}
+
+fn nearest(clearances: &[ClearanceReport]) -> Option<String> {
+    let measured = clearances.iter().filter_map(|clearance| Some((clearance, clearance.min_distance_m?)));
+    let (clearance, distance) = measured.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(format!("{} - {} {:.1} mm", clearance.a, clearance.b, distance * 1e3))
+}
+
+/// Everything about a check that is not as expected.
+fn complaint(check: &Checked) -> Vec<String> {
+    let seed = check.report.as_ref().map_or(String::new(), |report| format!(", seed {}", report.seed));
+    let mut lines = vec![format!("{BOLD}{}{PLAIN}{seed}: {RED}{}{PLAIN}", check.path, check.outcome.name().replace('_', " "))];
+    lines.extend(check.error().map(|error| format!("  {}", error.replace('\n', "\n  "))));
+    for criterion in check.criteria().filter(|criterion| !criterion.as_expected) {
+        let place = criterion.place.as_ref().map_or(String::new(), |place| format!("{}:{}:{}: ", place.file, place.line, place.column));
+        lines.push(format!("  {place}{RED}{}{PLAIN} {}", criterion.name, verdict::reason(criterion)));
+    }
+    lines.extend(check.refused_contacts().map(|contact| format!("  {}", verdict::contact(contact))));
+    lines
+}
+
+fn summary(report: &CheckReport) -> String {
+    let passed = report.checks.iter().filter(|check| check.outcome == Outcome::Passed).count();
+    let colour = if passed == report.checks.len() { GREEN } else { RED };
+    format!("{colour}{passed} of {} as expected{PLAIN}, {:.1} s", report.checks.len(), report.wall_s)
+}

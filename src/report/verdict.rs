@@ -1,0 +1,36 @@
+//! Why a criterion or a contact is not as it should be, in one sentence that every format shares.
+
+use super::table::figure;
+use super::{CollisionReport, CriterionReport};
+
+/// The criterion's answer: `0.0187 m, limit 0.005 m, margin +0.0137 m`.
+pub(super) fn numbers(criterion: &CriterionReport) -> String {
+    let unit = criterion.unit;
+    let with_unit = |number: Option<f64>| number.map_or("no answer".to_owned(), |number| format!("{} {unit}", figure(number)));
+    let sign = |number: f64| if number < 0.0 { "" } else { "+" };
+    let margin = criterion.margin.map_or(String::new(), |number| format!(", margin {}{} {unit}", sign(number), figure(number)));
+    format!("{}, limit {}{margin}", with_unit(criterion.value), with_unit(criterion.limit))
+}
+
+/// Why the criterion is not as expected.
+pub(super) fn reason(criterion: &CriterionReport) -> String {
+    let found = match (criterion.passed, criterion.value) {
+        (true, _) => "holds, but should not".to_owned(),
+        (false, None) => "has no answer: what it asks about never happened".to_owned(),
+        (false, Some(_)) => criterion.first_failed_time_s.map_or("fails".to_owned(), |time| format!("fails first at {time:.3} s")),
+    };
+    format!("{found}: {}", numbers(criterion))
+}
+
+/// The contact: who, when, how deep, how hard.
+pub(super) fn contact(contact: &CollisionReport) -> String {
+    format!(
+        "{} touches {} from {:.3} to {:.3} s, {:.2} mm deep, {:.1} N",
+        contact.a,
+        contact.b,
+        contact.first_time_s,
+        contact.last_time_s,
+        contact.max_depth_m * 1e3,
+        contact.max_force_n
+    )
+}

@@ -1,0 +1,92 @@
+//! `cpdmp check`: one verdict in four formats, and an exit code that a continuous integration can trust.
+
+use std::fs;
+
+use quick_junit::{NonSuccessKind, Report, TestCaseStatus, TestSuite};
+use serde_json::Value;
+
+use super::{Folder, GOOD};
+
+/// A scenario that passes, one that does not, and one that cannot be used.
+fn three() -> Folder {
+    let missed = GOOD.replace("name = \"good\"", "name = \"missed\"").replace("max_m = 0.02", "max_m = 0.0");
+    let faulty = GOOD.replace("mass_kg = 0.05", "mas_kg = 0.05");
+    let files = [("s/a.toml", GOOD.as_bytes()), ("s/b.toml", missed.as_bytes()), ("s/c.toml", faulty.as_bytes())];
+    Folder::with(&files)
+}
+
+fn kind(suite: &TestSuite, case: &str) -> Option<NonSuccessKind> {
+    let case = suite.test_cases.iter().find(|one| one.name.as_str() == case).unwrap_or_else(|| panic!("no case {case} in {suite:?}"));
+    match &case.status {
+        TestCaseStatus::NonSuccess { kind, .. } => Some(*kind),
+        _ => None,
+    }
+}
+
+/// Contract: what passes, what fails and what cannot be run stay apart in every format; the worst decides; nothing is left on the disk but
+/// what was asked for.
+#[test]
+fn one_verdict_in_every_format() {
+    let folder = three();
+    let said = folder.call(&["check", "s", "--junit", "out/junit.xml", "--jobs", "2"]);
+    assert_eq!(said.code, Some(3), "{}{}", said.stdout, said.stderr);
+    assert_eq!(folder.names(), ["out", "s"]);
+    let rows: Vec<&str> = said.stdout.lines().take(4).collect();
+    for (row, (path, outcome)) in
+        rows[1..].iter().zip([("s/a.toml", "passed"), ("s/b.toml", "criteria not met"), ("s/c.toml", "invalid input")])
+    {
+        assert!(row.contains(path) && row.contains(outcome), "{}", said.stdout);
+    }
+    assert!(said.stdout.contains("1 of 3 as expected") && said.stdout.contains("unknown key"), "{}", said.stdout);
+
+    let xml = fs::read_to_string(folder.path().join("out/junit.xml")).expect("written");
+    let report = Report::deserialize_from_str(&xml).expect("JUnit");
+    let [good, missed, faulty] = &report.test_suites[..] else { panic!("one suite per scenario: {xml}") };
+    assert_eq!((report.failures, report.errors, report.tests), (1, 1, 5));
+    assert_eq!((good.name.as_str(), kind(good, "completed"), kind(good, "goal")), ("good", None, None));
+    assert_eq!((kind(missed, "completed"), kind(missed, "goal")), (None, Some(NonSuccessKind::Failure)));
+    assert_eq!(kind(faulty, "completed"), Some(NonSuccessKind::Error));
+    let property = |name: &str| good.properties.iter().find(|one| one.name.as_str() == name).map(|one| one.value.as_str());
+    assert_eq!((property("seed"), property("version")), (Some("0"), Some(env!("CARGO_PKG_VERSION"))));
+    assert_eq!(property("state_hash").map(str::len), Some(16));
+}
+
+#[test]
+fn annotations_stand_at_the_line_of_the_criterion() {
+    let folder = three();
+    let said = folder.call(&["check", "s/b.toml", "s/c.toml", "--format", "github", "-q"]);
+    assert_eq!(said.code, Some(3));
+    let line = |text: &str, before: &str| text[..text.find(before).expect("there")].matches('\n').count() + 1;
+    let goal = format!("::error file=s/b.toml,line={},col=8,title=goal::goal: fails", line(GOOD, "\"goal\""));
+    let key = format!("::error file=s/c.toml,line={},col=1,title=unknown_key::unknown key", line(GOOD, "mass_kg"));
+    for wanted in [goal, key] {
+        assert!(said.stdout.lines().any(|line| line.starts_with(&wanted)), "{wanted}\n{}", said.stdout);
+    }
+}
+
+/// Contract: a check simulates what a run simulates.
+#[test]
+fn a_check_is_a_run_without_a_recording() {
+    let folder = three();
+    let said = folder.call(&["check", "s/a.toml", "--format", "json", "-q"]);
+    assert_eq!((said.code, said.stderr.as_str()), (Some(0), ""));
+    let check: Value = serde_json::from_str(&said.stdout).expect("JSON");
+    assert_eq!((check["schema_version"].as_i64(), check["outcome"].as_str()), (Some(1), Some("passed")));
+    let run: Value = serde_json::from_str(&folder.call(&["run", "s/a.toml", "--format", "json", "-q"]).stdout).expect("JSON");
+    let report = &check["checks"][0]["report"];
+    for key in ["state_hash", "criteria", "collisions", "clearance", "steps"] {
+        assert_eq!(report[key], run[key], "{key}");
+    }
+}
+
+#[test]
+fn what_check_cannot_do_is_said_before_anything_runs() {
+    let folder = three();
+    fs::write(folder.path().join("notes.xml"), "<mine/>").expect("written");
+    let said = folder.call(&["check", "s/a.toml", "--junit", "notes.xml"]);
+    assert!(said.code == Some(20) && said.stderr.contains("is not a JUnit report"), "{}", said.stderr);
+    assert_eq!(folder.call(&["check", "nowhere/*.toml"]).code, Some(5));
+    assert_eq!(folder.call(&["check"]).code, Some(2));
+    let said = folder.call(&["validate", "s/a.toml", "--format", "junit"]);
+    assert!(said.code == Some(2) && said.stderr.contains("for cpdmp check"), "{}", said.stderr);
+}
