@@ -19,7 +19,7 @@ pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, 
     if plan.steps {
         failures.extend(write_path_log(&folder.join("paths.parquet"), &paths(left)).err().map(|error| error.to_string()));
     }
-    failures.extend(draw(left, &folder.join("figures")));
+    failures.extend(draw(figures(left), &folder.join("figures")));
     failures
 }
 
@@ -62,7 +62,8 @@ fn graph(states: &Transitions) -> Figure {
     Figure { title: title.to_owned(), panels: vec![panel], columns: 1, panel_size_pt: PANEL_PT }
 }
 
-fn draw(left: &PlanarOutcome, folder: &Path) -> Vec<String> {
+/// Draws figures into a folder of their own. Returns what could not be written.
+pub(super) fn draw(figures: Vec<(&str, Figure)>, folder: &Path) -> Vec<String> {
     if let Err(error) = std::fs::create_dir(folder) {
         return vec![format!("{}: {error}", folder.display())];
     }
@@ -70,5 +71,5 @@ fn draw(left: &PlanarOutcome, folder: &Path) -> Vec<String> {
         let document = svg(&figure).map_err(|error| error.to_string())?;
         write_file(&folder.join(name), &document).map_err(|error| error.to_string())
     };
-    figures(left).into_iter().filter_map(|figure| written(figure).err()).collect()
+    figures.into_iter().filter_map(|figure| written(figure).err()).collect()
 }

@@ -15,8 +15,10 @@ mod mark;
 mod outline;
 mod planar_forcing;
 mod planar_paths;
+mod skill_forcing;
 mod svg;
 mod ticks;
+mod tool_paths;
 mod transitions;
 
 pub use chart::{Axis, Chart, Figure};
@@ -26,5 +28,7 @@ pub use mark::{Anchor, Mark, Shape, Symbol};
 pub use outline::{covariance_ellipse, ellipse};
 pub use planar_forcing::planar_forcing;
 pub use planar_paths::{method_color, planar_paths};
+pub use skill_forcing::skill_forcing;
 pub use svg::svg;
+pub use tool_paths::tool_paths;
 pub use transitions::{chain_color, transitions};
