@@ -50,6 +50,8 @@ fn cabinet(table: &Node) -> Cabinet {
         mass_kg: table.number("mass_kg"),
         friction_nm: table.number("friction_nm"),
         damping_nms_per_rad: table.number("damping_nms_per_rad"),
+        seal_nm_per_rad: table.number("seal_nm_per_rad"),
+        seal_travel_rad: table.number("seal_travel_rad"),
         opening_max_rad: table.number("opening_max_rad"),
         handles: table.size("handles"),
         first_handle_m: table.number("first_handle_m"),

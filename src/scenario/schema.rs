@@ -203,6 +203,8 @@ const CABINET: &[Key] = &[
     Key::new("mass_kg", Number(within("kg", 0.1, 50.0)), "mass of the door").or_number(3.0),
     Key::new("friction_nm", Number(within("N m", 0.0, 20.0)), "dry friction of the hinge").or_number(0.3),
     Key::new("damping_nms_per_rad", Number(within("N m s/rad", 0.0, 50.0)), "damping of the hinge").or_number(0.5),
+    Key::new("seal_nm_per_rad", Number(within("N m/rad", 0.0, 1e4)), "stiffness of the seal that the closing door presses").or_number(20.0),
+    Key::new("seal_travel_rad", Number(within("rad", 0.0, 0.2)), "how far the seal yields before the door stands still").or_number(0.05),
     Key::new("opening_max_rad", Number(within("rad", 0.1, 3.1)), "how far the door opens").or_number(1.2),
     Key::new("handles", Count(1, 9), "handles in a row; the first is the nearest to the hinge").or(Preset::Count(5)),
     Key::new("first_handle_m", Number(within("m", 0.01, 2.0)), "distance of the first handle from the hinge").or_number(0.2),

@@ -23,6 +23,10 @@ pub struct Cabinet {
     pub friction_nm: f64,
     /// Damping of the hinge (N m s/rad).
     pub damping_nms_per_rad: f64,
+    /// Stiffness of the seal that the closing door presses against the walls (N m/rad).
+    pub seal_nm_per_rad: f64,
+    /// How far the seal yields before the door stands still (rad).
+    pub seal_travel_rad: f64,
     /// How far the door opens (rad).
     pub opening_max_rad: f64,
     /// Number of handles in the row, 1 … 9; the first is the nearest to the hinge.

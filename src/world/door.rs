@@ -1,10 +1,12 @@
-//! A cabinet in the engine: walls that stand still, and a door on a hinge with dry friction, damping and limits.
+//! A cabinet in the engine: walls that stand still, and a door on a hinge with dry friction, damping, a seal and limits.
 //!
-//! The hinge is a reduced-coordinate joint, so the door has no other way to go and its friction and damping are implicit.
+//! The hinge is a reduced-coordinate joint, so the door has no other way to go and its friction and damping are implicit. The door is closed at
+//! an opening of 0, where it touches the seal: a spring and a damper that yield a little before the door stands still.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d_f64::prelude::{
-    ColliderBuilder, GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
+    ColliderBuilder, GenericJointBuilder, JointAxesMask, JointAxis, MotorModel, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder,
+    RigidBodyHandle,
 };
 
 use super::cabinet::Cabinet;
@@ -24,7 +26,32 @@ struct Owned<'a> {
     body: RigidBodyHandle,
 }
 
-/// Builds the cabinet `object`, number `index` of the scene, with its hinge at `world_from_hinge`. Returns the door's body.
+/// Damping of a seal: the time constant with which it comes back (s).
+const SEAL_TIME_S: f64 = 0.05;
+
+/// A door that moves.
+pub(super) struct Door {
+    pub body: RigidBodyHandle,
+    joint: MultibodyJointHandle,
+    seal_nm_per_rad: f64,
+}
+
+impl Door {
+    /// The seal pushes while the door presses it, before a step.
+    pub(super) fn act(&self, engine: &mut PhysicsWorld) {
+        let Some(id) = engine.multibody_joints.rigid_body_link(self.body).map(|link| link.id) else { return };
+        let Some((multibody, _)) = engine.multibody_joints.get_mut(self.joint) else { return };
+        let Some(link) = multibody.link_mut(id) else { return };
+        let pressed = link.joint().coords()[ANGLE] < 0.0;
+        let stiffness = if pressed { self.seal_nm_per_rad } else { 0.0 };
+        link.joint.data.set_motor_position(JointAxis::AngX, 0.0, stiffness, stiffness * SEAL_TIME_S);
+    }
+}
+
+/// Place of the hinge's angle among a joint's coordinates.
+const ANGLE: usize = 3;
+
+/// Builds the cabinet `object`, number `index` of the scene, with its hinge at `world_from_hinge`. Returns its door.
 pub(super) fn build(
     engine: &mut PhysicsWorld,
     (index, object): (usize, &Object),
@@ -32,7 +59,7 @@ pub(super) fn build(
     world_from_hinge: &Isometry3<f64>,
     parameters: &Parameters,
     parts: &mut Parts,
-) -> RigidBodyHandle {
+) -> Option<Door> {
     let pose = convert::pose(world_from_hinge);
     let walls = engine.insert_body(RigidBodyBuilder::fixed().pose(pose));
     let door = engine.insert_body(RigidBodyBuilder::dynamic().pose(pose).can_sleep(false));
@@ -45,30 +72,31 @@ pub(super) fn build(
     for part in cabinet.handle_parts(world_from_hinge.translation.y, parameters) {
         insert(engine, &moving, &part, 0.0, true, parts);
     }
-    hang(engine, cabinet, walls, door);
-    door
+    hang(engine, cabinet, walls, door)
 }
 
 /// Puts the door on its hinge. The joint's own axis is its frames' x, which points down: the door opens with a positive angle.
-fn hang(engine: &mut PhysicsWorld, cabinet: &Cabinet, walls: RigidBodyHandle, door: RigidBodyHandle) {
+fn hang(engine: &mut PhysicsWorld, cabinet: &Cabinet, walls: RigidBodyHandle, door: RigidBodyHandle) -> Option<Door> {
     let down = Isometry3::from_parts(Vector3::zeros().into(), UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_2));
     let hinge = GenericJointBuilder::new(JointAxesMask::LOCKED_REVOLUTE_AXES)
         .local_frame1(convert::pose(&down))
         .local_frame2(convert::pose(&down))
         .contacts_enabled(false)
-        .limits(JointAxis::AngX, [0.0, cabinet.opening_max_rad])
+        .limits(JointAxis::AngX, [-cabinet.seal_travel_rad, cabinet.opening_max_rad])
+        .motor_model(JointAxis::AngX, MotorModel::ForceBased)
         .build();
     let PhysicsWorld { bodies, colliders, multibody_joints, .. } = engine;
-    let Some(handle) = multibody_joints.insert(walls, door, hinge, true) else { return };
+    let joint = multibody_joints.insert(walls, door, hinge, true)?;
     if let Some(body) = bodies.get_mut(door) {
         body.recompute_mass_properties_from_colliders(colliders);
     }
-    let Some((multibody, _)) = multibody_joints.get_mut(handle) else { return };
+    let (multibody, _) = multibody_joints.get_mut(joint)?;
     multibody.set_self_contacts_enabled(false);
     multibody.damping_mut()[0] = cabinet.damping_nms_per_rad;
     multibody.frictions_mut()[0] = cabinet.friction_nm;
     multibody.forward_kinematics(bodies, true);
     multibody.update_rigid_bodies(bodies, true);
+    Some(Door { body: door, joint, seal_nm_per_rad: cabinet.seal_nm_per_rad })
 }
 
 fn insert(engine: &mut PhysicsWorld, owned: &Owned, part: &ObjectPart, mass_kg: f64, handle: bool, parts: &mut Parts) {

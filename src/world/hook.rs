@@ -5,11 +5,12 @@ use rapier3d_f64::prelude::{ImpulseJointHandle, PhysicsWorld, RigidBodyHandle, S
 
 use super::cabinet::{Cabinet, Grip};
 use super::{Parameters, convert};
+use crate::math::smooth_step;
 
 /// How near to a bar's axis the hook's middle must be for the clamp to close around it (m).
 const REACH_M: f64 = 0.01;
-/// How fast the closing clamp draws the bar to its middle (m/s).
-const CENTRING_M_PER_S: f64 = 0.01;
+/// How long the closing clamp takes to draw the bar to its middle (s).
+const CENTRING_S: f64 = 0.5;
 
 /// A hook that can hold the door of one cabinet.
 pub(super) struct Hook {
@@ -27,12 +28,14 @@ pub(super) struct Hook {
     pub force: Vector3<f64>,
 }
 
-/// A closed clamp: a ball joint between the hook's middle and a point of the door that creeps to the bar's axis.
+/// A closed clamp: a ball joint between the hook's middle and a point of the door that moves gently to the bar's axis.
 struct Clamp {
     joint: ImpulseJointHandle,
-    /// Where the joint holds the door, and where it will when the clamp has closed, in the door's frame (m).
-    at: Point3<f64>,
+    /// Where the joint first holds the door, and where it does when the clamp has closed, in the door's frame (m).
+    first: Point3<f64>,
     axis: Point3<f64>,
+    /// Steps since it took hold.
+    steps: u64,
 }
 
 impl Hook {
@@ -80,17 +83,17 @@ impl Hook {
     fn close(&self, engine: &mut PhysicsWorld) -> Option<Clamp> {
         let pose = |handle| engine.bodies.get(handle).map(|body| convert::pose_back(body.position()));
         let tool = pose(self.tool_body)? * Point3::from(self.body_from_tool.translation.vector);
-        let at = pose(self.door)?.inverse_transform_point(&tool);
-        let axis = |bar: &Point3<f64>| Point3::new(bar.x, bar.y, at.z.clamp(bar.z - self.half_length_m, bar.z + self.half_length_m));
-        let nearest = self.bars.iter().map(axis).min_by(|a, b| (a - at).norm().total_cmp(&(b - at).norm()))?;
-        if (nearest - at).norm() > REACH_M {
+        let first = pose(self.door)?.inverse_transform_point(&tool);
+        let axis = |bar: &Point3<f64>| Point3::new(bar.x, bar.y, first.z.clamp(bar.z - self.half_length_m, bar.z + self.half_length_m));
+        let nearest = self.bars.iter().map(axis).min_by(|a, b| (a - first).norm().total_cmp(&(b - first).norm()))?;
+        if (nearest - first).norm() > REACH_M {
             return None;
         }
         let joint = SphericalJointBuilder::new()
             .local_anchor1(convert::vector(&self.body_from_tool.translation.vector))
-            .local_anchor2(convert::vector(&at.coords))
+            .local_anchor2(convert::vector(&first.coords))
             .contacts_enabled(true);
-        Some(Clamp { joint: engine.insert_impulse_joint(self.tool_body, self.door, joint), at, axis: nearest })
+        Some(Clamp { joint: engine.insert_impulse_joint(self.tool_body, self.door, joint), first, axis: nearest, steps: 0 })
     }
 
     /// After a step: reads what the clamp did.
@@ -106,16 +109,17 @@ impl Hook {
 }
 
 impl Clamp {
-    /// Draws the bar's axis into the middle, slowly.
+    /// Draws the bar's axis into the middle, along a minimum-jerk path.
     fn centre(&mut self, engine: &mut PhysicsWorld) {
-        let way = self.axis - self.at;
-        let step = CENTRING_M_PER_S * engine.integration_parameters.dt;
-        if way.norm() == 0.0 {
+        let before_s = self.steps as f64 * engine.integration_parameters.dt;
+        if before_s > CENTRING_S {
             return;
         }
-        self.at = if way.norm() <= step { self.axis } else { self.at + way * (step / way.norm()) };
+        self.steps += 1;
+        let drawn = smooth_step(before_s + engine.integration_parameters.dt, 0.0, CENTRING_S);
+        let at = self.first + (self.axis - self.first) * drawn;
         if let Some(joint) = engine.impulse_joints.get_mut(self.joint, false) {
-            joint.data.set_local_anchor2(convert::vector(&self.at.coords));
+            joint.data.set_local_anchor2(convert::vector(&at.coords));
         }
     }
 }

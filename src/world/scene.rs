@@ -5,6 +5,7 @@ use rapier3d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, Rig
 
 use super::parts::{Owner, Part, Parts};
 use super::physics::Layer;
+use super::door::Door;
 use super::{Object, ObjectKind, Parameters, convert, door, support_height_m};
 
 /// A part of an object that is drawn and touched: a shape in the object's frame.
@@ -112,14 +113,17 @@ pub fn initial_pose(object: &Object, parameters: &Parameters, support_height: f6
     Isometry3::from_parts(Point3::new(center.x, center.y, height).into(), UnitQuaternion::identity())
 }
 
-/// Builds all objects; returns the engine's body of each in their order, of a cabinet that of its door.
-pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &Parameters, parts: &mut Parts) -> Vec<RigidBodyHandle> {
+/// Builds all objects; returns the engine's body of each in their order, of a cabinet that of its door, and the doors.
+pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &Parameters, parts: &mut Parts) -> (Vec<RigidBodyHandle>, Vec<Door>) {
     let support = support_height_m(objects);
-    let mut bodies = Vec::with_capacity(objects.len());
+    let (mut bodies, mut doors) = (Vec::with_capacity(objects.len()), Vec::new());
     for (index, object) in objects.iter().enumerate() {
         let pose = initial_pose(object, parameters, support);
         if let ObjectKind::Cabinet(cabinet) = &object.kind {
-            bodies.push(door::build(engine, (index, object), cabinet, &pose, parameters, parts));
+            if let Some(door) = door::build(engine, (index, object), cabinet, &pose, parameters, parts) {
+                bodies.push(door.body);
+                doors.push(door);
+            }
             continue;
         }
         let (builder, layer, friction, mass_kg) = match object.kind {
@@ -144,7 +148,7 @@ pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &
         }
         bodies.push(body);
     }
-    bodies
+    (bodies, doors)
 }
 
 /// Friction of blocks and basket.

@@ -7,6 +7,7 @@ use twox_hash::XxHash3_64;
 
 use super::clearance::ClearanceBook;
 use super::contacts::ContactBook;
+use super::door::Door;
 use super::hook::Hook;
 use super::parts::Parts;
 use super::robot_body::{Limbs, RobotBody};
@@ -53,6 +54,7 @@ pub struct World {
     pub(super) clearance: ClearanceBook,
     pub(super) clearance_every: u64,
     pub(super) held: Vec<usize>,
+    pub(super) doors: Vec<Door>,
     pub(super) hook: Option<Hook>,
     pub(super) joint_state: (Vec<f64>, Vec<f64>),
     pub(super) hand: HandWrench,
@@ -78,7 +80,7 @@ impl World {
             let own = model.joints[limbs.working[dof]].friction;
             robot.working.set_friction(&mut engine, dof, own + settings.dry_friction_nm);
         }
-        let objects = scene::build(&mut engine, settings.objects, settings.parameters, &mut parts);
+        let (objects, doors) = scene::build(&mut engine, settings.objects, settings.parameters, &mut parts);
         let movable: Vec<bool> = settings.objects.iter().map(Object::is_movable).collect();
         let watched: Vec<bool> = settings.objects.iter().map(|o| matches!(o.kind, ObjectKind::UBlock { .. })).collect();
         let names: Vec<String> = settings.objects.iter().map(|o| o.name.clone()).collect();
@@ -97,6 +99,7 @@ impl World {
             clearance,
             clearance_every: (settings.clearance_interval_s / settings.physics.step_s).round() as u64,
             held: Vec::new(),
+            doors,
             hook,
             joint_state: (vec![0.0; n], vec![0.0; n]),
             hand: HandWrench::default(),
@@ -149,6 +152,7 @@ impl World {
         if let Some(hook) = &mut self.hook {
             hook.act(&mut self.engine);
         }
+        self.doors.iter().for_each(|door| door.act(&mut self.engine));
         self.step += 1;
         physics::step(&mut self.engine, self.step)?;
         self.robot.working.settle_efforts(&self.engine);
