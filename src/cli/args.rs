@@ -34,6 +34,8 @@ pub(super) enum Command {
     Generate(Generate),
     /// Say what a skill, a dataset, a run folder or a robot's file holds
     Inspect(Inspect),
+    /// Draw the figures of a run again, from what its folder holds
+    Figures(RunFolder),
     /// List the scenarios of a folder, with what each shows
     List(Folders),
     /// Explain exit codes and the codes of faults
@@ -46,6 +48,14 @@ pub(super) struct Paths {
     /// Scenario files, folders of them, or patterns with `*` and `?` in the file name
     #[arg(required = true, value_name = "SCENARIO")]
     pub paths: Vec<PathBuf>,
+}
+
+/// A run that is over.
+#[derive(Debug, Args)]
+pub(super) struct RunFolder {
+    /// The folder that a run has left
+    #[arg(value_name = "RUN_DIR")]
+    pub folder: PathBuf,
 }
 
 /// What is checked, and where the verdict goes.
@@ -90,7 +100,7 @@ pub(super) struct Global {
     #[arg(long, global = true, env = "CPDMP_ASSET_ROOT", value_name = "DIR")]
     pub asset_root: Vec<PathBuf>,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the
-    /// samples to this file
+    /// samples to this file; figures to this folder
     #[arg(long, global = true, env = "CPDMP_OUT", value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Use this many threads; the result does not depend on it

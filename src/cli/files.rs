@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::judged_run::{JudgedRun, Left};
-use super::planar_files::{self, draw};
-use crate::figure::{skill_forcing, tool_paths};
+use super::{figure_files, planar_files};
 use crate::recording;
 use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file, write_file};
 use crate::scenario::{RecordingPlan, Scenario, Work};
@@ -45,12 +44,10 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
     if plan.steps {
         failures.extend(recording::write_step_log(&folder.join("steps.parquet"), left).err().map(|error| error.to_string()));
     }
-    let mut figures = vec![("paths.svg", tool_paths(left, experiment))];
-    match skill_forcing(left, experiment) {
-        Ok(figure) => figures.push(("forcing.svg", figure)),
-        Err(error) => failures.push(error.to_string()),
+    match figure_files::arm_run(experiment, left).and_then(|run| figure_files::of_arm(&run)) {
+        Ok(figures) => failures.extend(figure_files::draw(&figures, &folder.join("figures"))),
+        Err(error) => failures.push(format!("figures: {error}")),
     }
-    failures.extend(draw(figures, &folder.join("figures")));
     #[cfg(feature = "rerun")]
     if plan.rrd {
         let written = recording::write_recording(&folder.join("recording.rrd"), experiment, left);

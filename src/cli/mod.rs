@@ -7,6 +7,8 @@ mod args;
 mod check;
 mod explain;
 mod failure;
+mod figure_files;
+mod figures;
 mod files;
 mod generate;
 mod generate_request;
@@ -59,6 +61,7 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::Learn(arguments) => learn::learn(arguments, &cli.global, &terminal),
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
+        Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
         Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),
     };

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::figure::{Figure, planar_forcing, planar_paths, svg, transitions};
+use super::figure_files::draw;
+use crate::figure::{Figure, planar_forcing, planar_paths, transitions};
 use crate::planar::{Guidance, Method, Movement, PlanarOutcome, Transitions};
 use crate::recording::{LoggedPath, write_path_log};
-use crate::report::write_file;
 use crate::scenario::{PlanarRun, RecordingPlan};
 
 /// Writes everything into the folder. Returns what could not be written.
@@ -19,7 +19,7 @@ pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, 
     if plan.steps {
         failures.extend(write_path_log(&folder.join("paths.parquet"), &paths(left)).err().map(|error| error.to_string()));
     }
-    failures.extend(draw(figures(left), &folder.join("figures")));
+    failures.extend(draw(&figures(left), &folder.join("figures")));
     failures
 }
 
@@ -36,7 +36,7 @@ fn logged<'a>(movement: &'a Movement, setting: &'a str) -> LoggedPath<'a> {
 }
 
 /// The figures of an experiment: those of section 4.1, or those of section 4.2 with the side told and without.
-fn figures(left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
+pub(super) fn figures(left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
     if left.cases_with(Guidance::OneSide).next().is_some() {
         return vec![
             ("paths.svg", planar_paths("Paths to taught and new goals", left, Guidance::OneSide)),
@@ -60,16 +60,4 @@ fn graph(states: &Transitions) -> Figure {
     let title = "States and chains, the side not told";
     let panel = transitions("", &states.graph, &states.chains, PANEL_PT[0]);
     Figure { title: title.to_owned(), panels: vec![panel], columns: 1, panel_size_pt: PANEL_PT }
-}
-
-/// Draws figures into a folder of their own. Returns what could not be written.
-pub(super) fn draw(figures: Vec<(&str, Figure)>, folder: &Path) -> Vec<String> {
-    if let Err(error) = std::fs::create_dir(folder) {
-        return vec![format!("{}: {error}", folder.display())];
-    }
-    let written = |(name, figure): (&str, Figure)| {
-        let document = svg(&figure).map_err(|error| error.to_string())?;
-        write_file(&folder.join(name), &document).map_err(|error| error.to_string())
-    };
-    figures.into_iter().filter_map(|figure| written(figure).err()).collect()
 }

@@ -21,7 +21,7 @@ const SIDES_PT: [f64; 2] = [6.0, 14.0];
 /// Space above the title (pt), to the panel above.
 const TOP_PT: f64 = 8.0;
 /// Ticks per axis, at most: one per so many points.
-const TICK_PT: [f64; 2] = [45.0, 28.0];
+const TICK_PT: [f64; 2] = [45.0, 20.0];
 
 /// Draws a panel of this size (pt).
 pub(super) fn draw_chart(chart: &Chart, size_pt: [f64; 2], area: &Page<'_, Shift>) -> Drawn<()> {

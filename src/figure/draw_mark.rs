@@ -5,8 +5,8 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::coord::{Shift, cartesian::Cartesian2d};
 use plotters::element::{Circle, Drawable, PathElement, PointCollection, Polygon, Rectangle, Text};
 use plotters::prelude::{DashedLineSeries, SVGBackend};
-use plotters::style::FontStyle;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontStyle, ShapeStyle};
 
 use super::canvas::{Drawn, Page, TEXT_PT, fill, steps, stroke, text};
 use super::mark::{Anchor, Mark, Shape, Symbol};
@@ -27,6 +27,9 @@ pub(super) type Panel<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ran
 
 /// Draws a mark in a panel.
 pub(super) fn draw_mark(mark: &Mark, panel: &mut Panel<'_, '_>) -> Drawn<()> {
+    if let Shape::Band { stretch, opacity } = &mark.shape {
+        return draw_band(*stretch, fill(mark.color, *opacity), panel);
+    }
     let map = |point: &[f64; 2]| panel.plotting_area().map_coordinate(&(point[0], point[1]));
     let places: Vec<(i32, i32)> = mark.places().iter().map(map).collect();
     let page = panel.plotting_area().strip_coord_spec();
@@ -35,12 +38,22 @@ pub(super) fn draw_mark(mark: &Mark, panel: &mut Panel<'_, '_>) -> Drawn<()> {
     draw_shape(&mark.shape, mark.color, places, &page)
 }
 
+/// Fills the part of a stretch that is in the panel, over its whole height.
+fn draw_band(stretch: [f64; 2], look: ShapeStyle, panel: &mut Panel<'_, '_>) -> Drawn<()> {
+    let (along, up) = (panel.x_range(), panel.y_range());
+    let [from, to] = stretch.map(|end| end.clamp(along.start, along.end));
+    let corners = [(from, up.start), (to, up.end)];
+    if from < to { panel.plotting_area().draw(&Rectangle::new(corners, look)).map_err(|error| error.to_string()) } else { Ok(()) }
+}
+
 /// Draws a sample of a mark, `width_pt` wide, with its left end in the middle of its height at `at` (pt).
 pub(super) fn draw_sample(mark: &Mark, at: [f64; 2], width_pt: f64, page: &Page<'_, Shift>) -> Drawn<()> {
     let place = |x: f64, y: f64| (steps(at[0] + x), steps(at[1] + y));
     let places = match &mark.shape {
         Shape::Line { .. } | Shape::Arrow { .. } => vec![place(0.0, 0.0), place(width_pt, 0.0)],
-        Shape::Area { .. } => vec![place(2.0, -4.0), place(width_pt - 2.0, -4.0), place(width_pt - 2.0, 4.0), place(2.0, 4.0)],
+        Shape::Area { .. } | Shape::Band { .. } => {
+            vec![place(2.0, -4.0), place(width_pt - 2.0, -4.0), place(width_pt - 2.0, 4.0), place(2.0, 4.0)]
+        }
         Shape::Symbols { .. } | Shape::Words { .. } => vec![place(width_pt / 2.0, 0.0)],
     };
     match &mark.shape {
@@ -61,6 +74,7 @@ fn draw_shape(shape: &Shape, color: Rgb, places: Vec<(i32, i32)>, page: &Page<'_
             let closed: Vec<(i32, i32)> = places.iter().chain(places.first()).copied().collect();
             put(page, &PathElement::new(closed, stroke(color, BORDER_PT)))
         }
+        Shape::Band { opacity, .. } => put(page, &Polygon::new(places, fill(color, *opacity))),
         Shape::Symbols { symbol, radius_pt, .. } => {
             places.into_iter().try_for_each(|place| draw_symbol(*symbol, place, steps(*radius_pt), color, page))
         }

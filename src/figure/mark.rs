@@ -32,6 +32,13 @@ pub enum Shape {
         /// How much of what is behind it is covered (0 … 1).
         opacity: f64,
     },
+    /// A stretch of the horizontal axis, filled from the bottom of the panel to its top.
+    Band {
+        /// Its ends.
+        stretch: [f64; 2],
+        /// How much of what is behind it is covered (0 … 1).
+        opacity: f64,
+    },
     /// Symbols at places.
     Symbols {
         /// The places.
@@ -102,6 +109,12 @@ impl Mark {
         Self { legend: legend.to_owned(), color, shape: Shape::Area { outline, opacity } }
     }
 
+    /// A stretch of the horizontal axis. It does not widen the axis.
+    #[must_use]
+    pub fn band(legend: &str, color: Rgb, opacity: f64, stretch: [f64; 2]) -> Self {
+        Self { legend: legend.to_owned(), color, shape: Shape::Band { stretch, opacity } }
+    }
+
     /// Symbols.
     #[must_use]
     pub fn symbols(legend: &str, color: Rgb, symbol: Symbol, radius_pt: f64, places: Vec<[f64; 2]>) -> Self {
@@ -121,11 +134,15 @@ impl Mark {
             Shape::Area { outline, .. } => outline,
             Shape::Symbols { places, .. } => places,
             Shape::Words { at, .. } => std::slice::from_ref(at),
+            Shape::Band { .. } => &[],
         }
     }
 
     /// Whether every place is a finite one.
     pub(super) fn is_finite(&self) -> bool {
+        if let Shape::Band { stretch, .. } = &self.shape {
+            return stretch.iter().all(|number| number.is_finite());
+        }
         self.places().iter().flatten().all(|number| number.is_finite())
     }
 }

@@ -3,6 +3,12 @@
 //! A [`Figure`] is plain data: panels of marks in the units of their axes, and one legend for all. [`svg`] draws it. Text stays text and no
 //! font is needed to draw it; nothing lies outside of the page. Colours are those of [`crate::palette`].
 
+mod arm_compliance;
+mod arm_forcing;
+mod arm_motion;
+mod arm_paths;
+mod arm_run;
+mod arm_states;
 mod canvas;
 mod chart;
 mod draw_chart;
@@ -15,12 +21,16 @@ mod mark;
 mod outline;
 mod planar_forcing;
 mod planar_paths;
-mod skill_forcing;
 mod svg;
 mod ticks;
-mod tool_paths;
 mod transitions;
 
+pub use arm_compliance::arm_compliance;
+pub use arm_forcing::arm_forcing;
+pub use arm_motion::arm_motion;
+pub use arm_paths::arm_paths;
+pub use arm_run::ArmRun;
+pub use arm_states::arm_states;
 pub use chart::{Axis, Chart, Figure};
 pub use error::FigureError;
 pub use graph::{Edge, Node, graph};
@@ -28,7 +38,5 @@ pub use mark::{Anchor, Mark, Shape, Symbol};
 pub use outline::{covariance_ellipse, ellipse};
 pub use planar_forcing::planar_forcing;
 pub use planar_paths::{method_color, planar_paths};
-pub use skill_forcing::skill_forcing;
 pub use svg::svg;
-pub use tool_paths::tool_paths;
 pub use transitions::{chain_color, transitions};

@@ -1,5 +1,6 @@
 //! Colours that people with any colour vision tell apart: one palette for figures and recordings, so that a thing has one colour everywhere.
 
+pub mod meaning;
 mod okabe_ito;
 mod rgb;
 

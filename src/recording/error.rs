@@ -1,8 +1,8 @@
-//! Why a recording or a step log could not be written.
+//! Why a recording or a step log could not be written or read.
 
 use std::path::PathBuf;
 
-/// Why a recording or a step log could not be written. The run itself is not affected.
+/// Why a recording or a step log could not be written or read. The run itself is not affected.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
     /// The file system refused.
@@ -13,13 +13,21 @@ pub enum RecordingError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// The Parquet writer failed.
+    /// The Parquet library failed.
     #[error("{}: {source}", path.display())]
     Parquet {
         /// The file.
         path: PathBuf,
-        /// What the writer said.
+        /// What it said.
         source: parquet::errors::ParquetError,
+    },
+    /// The file is no step log that can be read.
+    #[error("{}: {message}", path.display())]
+    StepLog {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and what was expected.
+        message: String,
     },
     /// The rerun writer failed.
     #[error("{}: {source}", path.display())]

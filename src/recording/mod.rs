@@ -10,6 +10,8 @@ mod path_log;
 mod rrd;
 mod step_columns;
 mod step_log;
+mod step_reader;
+mod step_table;
 
 pub use error::RecordingError;
 pub use path_log::{LoggedPath, PATH_COLUMNS, PATH_LOG_VERSION, write_path_log};
@@ -17,3 +19,4 @@ pub use path_log::{LoggedPath, PATH_COLUMNS, PATH_LOG_VERSION, write_path_log};
 pub use rrd::{entity_path, write_recording};
 pub use step_columns::{StepColumn, step_columns};
 pub use step_log::{STEP_LOG_VERSION, write_step_log};
+pub use step_reader::read_step_log;

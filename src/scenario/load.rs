@@ -222,6 +222,14 @@ mod tests {
             center_m = [0.6, -0.2]
             inner_size_m = [0.2, 0.2]
             wall_height_m = 0.1
+            [[object]]
+            name = "cabinet"
+            kind = "cabinet"
+            center_m = [1.5, 0.6]
+            door_size_m = [0.4, 0.4]
+            bottom_height_m = 0.1
+            handle_lateral_m = "height_m"
+            grip = "contact"
             [robot.sensor]
             filter_cutoff_hz = inf
             [learning.compliance]
@@ -233,7 +241,11 @@ mod tests {
         "#;
         let criteria = [
             "object_in_container\"\nobject = \"toy\"\ncontainer = \"basket\"",
-            "no_contact\"\nobjects = [\"block\"]",
+            "no_contact\"\nobjects = [\"block\"]\nexcept_allowed = true",
+            "door_open\"\nobject = \"cabinet\"\nmin_rad = 0.9",
+            "arc_followed\"\nobject = \"cabinet\"\nof = \"reference\"\nmax_m = 0.01",
+            "hook_kept\"\nobject = \"cabinet\"\nmax_m = 0.01",
+            "tool_force\"\nmax_n = 20",
             "clearance\"\nobjects = [\"block\"]\nmin_m = 0.005",
             "goal_reached\"\nmax_m = 0.02",
             "human_force\"\nmax_n = 15",
@@ -248,6 +260,6 @@ mod tests {
         assert_eq!(again.resolved, typed.resolved);
         assert_eq!(format!("{:?}", again.work), format!("{:?}", typed.work));
         assert_eq!(again.criteria, typed.criteria);
-        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (9, 5));
+        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (13, 6));
     }
 }

@@ -7,7 +7,7 @@ use super::setup::Setup;
 use super::step_loop::{Published, StepLoop};
 use super::{FinalObject, SimulationError, StepRecord};
 use crate::control::{Controller, SkillController};
-use crate::learning::{ExecutionSettings, Skill, SkillExecution};
+use crate::learning::{Skill, SkillExecution};
 use crate::world::{Clearance, ContactEpisode, World, pointing_down};
 
 /// What an execution left behind.
@@ -29,7 +29,7 @@ const EXECUTION_RUN: u64 = u64::MAX;
 /// Executes `skill` in the experiment's setting.
 pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, SimulationError> {
     let experiment = &setup.experiment;
-    let query = settings(setup);
+    let query = experiment.question();
     let execution = SkillExecution::new(skill, &query)?;
     let duration = execution.duration_s();
     let goal = Vector3::new(execution.goal()[0], execution.goal()[1], execution.goal()[2]);
@@ -78,19 +78,6 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
         state_hash: world.state_hash(),
         steps,
     })
-}
-
-/// The question that the experiment puts to the skill.
-pub(super) fn settings(setup: &Setup) -> ExecutionSettings {
-    let experiment = &setup.experiment;
-    let theta = |names: &[String]| names.iter().filter_map(|name| Some((name.clone(), experiment.parameters.get(name)?))).collect();
-    ExecutionSettings {
-        theta_m: theta(&experiment.theta_m),
-        theta_f: theta(&experiment.theta_f),
-        duration_s: experiment.execution.duration_s,
-        coupling: experiment.execution.coupling.clone(),
-        ..Default::default()
-    }
 }
 
 fn final_objects(world: &World, names: &[String]) -> Vec<FinalObject> {

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use crate::control::ImpedanceSettings;
-use crate::learning::LearningSettings;
 use crate::learning::cpdmp::CouplingSettings;
+use crate::learning::{ExecutionSettings, LearningSettings};
 use crate::world::{HumanSettings, Object, Parameters, PhysicsSettings, SensorSettings};
 
 /// One experiment: who teaches what to which robot in which scene, and how the skill is executed.
@@ -37,6 +37,21 @@ pub struct Experiment {
     /// Samples per second in the step log and the recording (Hz), from which criteria about moments are answered. Contacts and the person's peak
     /// force are taken at every engine step regardless, clearances at 200 Hz.
     pub log_rate_hz: f64,
+}
+
+impl Experiment {
+    /// The question that it puts to the skill.
+    #[must_use]
+    pub fn question(&self) -> ExecutionSettings {
+        let theta = |names: &[String]| names.iter().filter_map(|name| Some((name.clone(), self.parameters.get(name)?))).collect();
+        ExecutionSettings {
+            theta_m: theta(&self.theta_m),
+            theta_f: theta(&self.theta_f),
+            duration_s: self.execution.duration_s,
+            coupling: self.execution.coupling.clone(),
+            ..Default::default()
+        }
+    }
 }
 
 /// Where the demonstrations come from.

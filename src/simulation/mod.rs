@@ -24,4 +24,4 @@ pub use outcome::{AppliedForce, FinalObject, PhaseSummary, RunOutcome};
 pub use progress::{Progress, Silent};
 pub use run::{History, demonstrate, perform, run};
 pub use setup::Setup;
-pub use step_record::StepRecord;
+pub use step_record::{StepRecord, skill_duration_s};

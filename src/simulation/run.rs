@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use twox_hash::XxHash3_64;
 
-use super::execution::{execute, settings};
+use super::execution::execute;
 use super::replay::replay;
 use super::setup::Setup;
 use super::teaching::{Lesson, demonstration, settings_of, teach};
@@ -55,7 +55,7 @@ pub fn perform(
     progress: &dyn Progress,
 ) -> Result<RunOutcome, SimulationError> {
     let started = progress.elapsed_s();
-    let plan = learning::generate(&learned.skill, &settings(setup), 1.0 / setup.experiment.log_rate_hz, 1.0)?;
+    let plan = learning::generate(&learned.skill, &setup.experiment.question(), 1.0 / setup.experiment.log_rate_hz, 1.0)?;
     progress.phase("execute", 0);
     let executed = execute(setup, &learned.skill)?;
     let mut report = learned.report.clone();
@@ -84,7 +84,7 @@ pub fn perform(
 
 /// A warning when the setting lies outside what was demonstrated.
 fn extrapolation(setup: &Setup, skill: &Skill) -> Result<Option<String>, SimulationError> {
-    let beyond = skill.extrapolation(&settings(setup).theta_m)?;
+    let beyond = skill.extrapolation(&setup.experiment.question().theta_m)?;
     let told = setup.experiment.theta_m.join(", ");
     let message = || format!("{told} lies outside the demonstrated range by {:.0} % of it: the skill extrapolates", beyond * 100.0);
     Ok((beyond > 0.0).then(message))

@@ -54,3 +54,10 @@ pub struct StepRecord {
     /// Kinetic energy of the robot and the objects (J).
     pub kinetic_energy_j: f64,
 }
+
+/// How long the skill took (s), by the last record before its end; `None` when no record lies inside.
+#[must_use]
+pub fn skill_duration_s(steps: &[StepRecord]) -> Option<f64> {
+    let inside = steps.iter().rev().find(|record| record.time_fraction > 0.0 && record.time_fraction < 1.0);
+    inside.map(|record| record.time_s / record.time_fraction)
+}

@@ -36,7 +36,7 @@ fn a_run_tells_the_same_everywhere_and_can_be_repeated() {
     let mut written = names(&run);
     // Absent when the program is built without the feature `rerun`.
     written.retain(|name| name != "recording.rrd");
-    assert_eq!(written, ["demonstrations", "manifest.json", "report.json", "scenario.toml", "skill.json", "steps.parquet"]);
+    assert_eq!(written, ["demonstrations", "figures", "manifest.json", "report.json", "scenario.toml", "skill.json", "steps.parquet"]);
     assert_eq!(names(&folder.path().join("runs")), ["good-0"]);
 
     let again = folder.call(&["run", "a.toml", "--format", "json", "--jobs", "1", "-q"]);
@@ -51,6 +51,38 @@ fn a_run_tells_the_same_everywhere_and_can_be_repeated() {
     assert_ne!(hash(&other), state_hash, "another seed is another run");
     assert!(folder.path().join("runs/good-1/report.json").exists());
 }
+
+/// Contract: the figures of a stored run are those that the run drew, byte for byte, also when the folder has been moved.
+#[test]
+fn figures_are_drawn_again_from_the_folder_alone() {
+    let folder = good();
+    assert_eq!(folder.call(&["run", "a.toml", "--out", "run", "-q"]).code, Some(0));
+    let place = folder.path().join("moved");
+    fs::rename(folder.path().join("run"), &place).expect("moved");
+    fs::remove_file(folder.path().join("a.toml")).expect("removed");
+    let figures = |folder: &std::path::Path| -> Vec<(String, Vec<u8>)> {
+        names(folder).into_iter().map(|name| (name.clone(), fs::read(folder.join(name)).expect("a figure"))).collect()
+    };
+    let first = figures(&place.join("figures"));
+    assert_eq!(first.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), FIGURES);
+    let said = folder.call(&["figures", "moved", "--out", "again"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(FIGURES.iter().all(|name| said.stdout.contains(&format!("again/{name}\n"))), "{}", said.stdout);
+    assert!(figures(&folder.path().join("again")) == first, "the bytes differ");
+    fs::remove_dir_all(place.join("figures")).expect("removed");
+    let said = folder.call(&["figures", "moved", "--format", "json"]);
+    assert_eq!((said.code, json(&said.stdout)["figures"][0].as_str()), (Some(0), Some("motion.svg")), "{}", said.stderr);
+    assert!(figures(&place.join("figures")) == first, "the bytes differ");
+
+    fs::remove_file(place.join("steps.parquet")).expect("removed");
+    for (arguments, words) in [(["figures", "moved"], "steps.parquet"), (["figures", "again"], "manifest.json")] {
+        let said = folder.call(&arguments);
+        assert_eq!(said.code, Some(3), "{}", said.stderr);
+        assert!(said.stderr.contains(words), "{}", said.stderr);
+    }
+}
+
+const FIGURES: [&str; 5] = ["compliance.svg", "forcing.svg", "motion.svg", "paths.svg", "states.svg"];
 
 #[test]
 fn a_recorded_dataset_stands_for_the_teaching() {

@@ -1,4 +1,5 @@
 //! Figures as SVG.
 
+mod arm;
 mod drawing;
 mod transition_graph;

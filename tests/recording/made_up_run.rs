@@ -27,18 +27,26 @@ pub fn outcome() -> RunOutcome {
 }
 
 /// The same with a skill that has no states.
-#[cfg(feature = "rerun")]
 pub fn outcome_of_the_baseline() -> RunOutcome {
     learned(ShapingKind::Lwr)
 }
 
+/// How its skill was learned.
+pub fn learning_settings() -> LearningSettings {
+    let small = PhmmSettings { states: 5, kmeans_starts: 0, max_iterations: 5, ..PhmmSettings::default() };
+    LearningSettings { motion: small.clone(), force: small, ..LearningSettings::default() }
+}
+
+/// What the skill was asked.
+pub fn question() -> ExecutionSettings {
+    ExecutionSettings { theta_m: vec![("block_height_m".into(), 0.235)], ..ExecutionSettings::default() }
+}
+
 fn learned(shaping: ShapingKind) -> RunOutcome {
     let dataset = PickAndPlace { duration_s: 6.0, rate_hz: 50.0, toy_offsets_m: vec![-0.06, 0.06], ..PickAndPlace::default() }.dataset(1);
-    let small = PhmmSettings { states: 5, kmeans_starts: 0, max_iterations: 5, ..PhmmSettings::default() };
-    let settings = LearningSettings { shaping, motion: small.clone(), force: small, ..LearningSettings::default() };
+    let settings = LearningSettings { shaping, ..learning_settings() };
     let learned = learn(&dataset, &settings, 1).expect("the synthetic demonstrations can be learned from");
-    let question = ExecutionSettings { theta_m: vec![("block_height_m".into(), 0.235)], ..ExecutionSettings::default() };
-    let plan = generate(&learned.skill, &question, 0.05, 1.0).expect("the skill can be asked");
+    let plan = generate(&learned.skill, &question(), 0.05, 1.0).expect("the skill can be asked");
     let robot = baxter();
     let names = ["table", "block_1", "block_2", "toy", "basket"];
     let objects = names.map(|name| FinalObject { name: name.into(), position: Point3::origin(), speed_m_per_s: 0.0 });

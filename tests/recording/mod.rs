@@ -1,6 +1,6 @@
 //! What is kept of a run: the files hold what the records say, bit for bit where they hold numbers, and failures are told.
 
-mod made_up_run;
+pub mod made_up_run;
 mod path_log;
 #[cfg(feature = "rerun")]
 mod recording_file;

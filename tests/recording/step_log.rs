@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use cpdmp::recording::{RecordingError, step_columns, write_step_log};
+use cpdmp::recording::{RecordingError, read_step_log, step_columns, write_step_log};
 use cpdmp::simulation::{RunOutcome, StepRecord};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
@@ -78,6 +78,33 @@ fn every_number_comes_back_bit_for_bit() {
     for (name, value) in [("step", (|r| r.step) as fn(&StepRecord) -> u64), ("state", |r| r.state as u64)] {
         assert_eq!(column(&path, name), outcome.steps.iter().map(value).collect::<Vec<_>>(), "{name}");
     }
+}
+
+/// Contract: what is read is what was written. The text of a number names its bits, and a record's text names every one of its numbers.
+#[test]
+fn a_log_that_is_read_gives_the_records_back() {
+    let outcome = outcome();
+    let (_folder, path) = written(&outcome);
+    let read = read_step_log(&path).expect("the log is read");
+    assert_eq!(read.len(), STEPS);
+    for (read, written) in read.iter().zip(&outcome.steps) {
+        let without_bodies = StepRecord { bodies: Vec::new(), ..written.clone() };
+        assert_eq!(format!("{read:?}"), format!("{without_bodies:?}"));
+    }
+}
+
+#[test]
+fn what_is_not_a_step_log_is_told_with_its_name() {
+    let folder = TempDir::new().expect("a folder can be made");
+    let path = folder.path().join("steps.parquet");
+    for content in [&b""[..], b"PAR1", b"step,time_s\n0,0.0\n"] {
+        std::fs::write(&path, content).expect("written");
+        let error = read_step_log(&path).expect_err("no Parquet");
+        assert!(matches!(error, RecordingError::Parquet { .. }) && error.to_string().contains("steps.parquet"), "{error}");
+    }
+    cpdmp::recording::write_path_log(&path, &[]).expect("a log of another kind");
+    let error = read_step_log(&path).expect_err("paths");
+    assert!(error.to_string().contains("not a step log"), "{error}");
 }
 
 #[test]

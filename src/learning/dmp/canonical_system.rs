@@ -32,6 +32,15 @@ impl PhaseInput {
             Self::Phase => 1.0,
         }
     }
+
+    /// `|d input / d u|` (-) at time fraction `u`, for the decay `alpha` (-).
+    #[must_use]
+    pub fn rate(self, u: f64, alpha: f64) -> f64 {
+        match self {
+            Self::TimeFraction => 1.0,
+            Self::Phase => alpha * (-alpha * u).exp(),
+        }
+    }
 }
 
 /// `tau sdot = -alpha rho s` with `s(0) = 1`, kept as the time fraction `u = -ln(s) / alpha`, whose solution is exact:

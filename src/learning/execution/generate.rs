@@ -50,6 +50,8 @@ pub struct TaskSpaceState {
     pub state: usize,
     /// Time fraction of its mean (-).
     pub u: f64,
+    /// Standard deviation of that (-).
+    pub u_deviation: f64,
     /// Where the movement is at that moment (d; unit of the motion columns).
     pub position: DVector<f64>,
     /// `Sigma_i` of the forcing term given the phase (d x d; squared unit): everything the model expects to vary there. The forcing term
@@ -81,11 +83,13 @@ pub fn task_space_states(skill: &Skill, settings: &ExecutionSettings) -> Result<
         let u = input.time_fraction(gmr.input_mean(i)[0], skill.motion.alpha).clamp(0.0, 1.0);
         let at = u * STEPS as f64;
         let before = (at as usize).min(STEPS - 1);
+        let deviation = skill.motion.phmm().map_or(0.0, |phmm| phmm.covariances[i][(0, 0)].max(0.0).sqrt());
         let mut active = segments.iter().filter(|s| s.state == i).peekable();
         let start = active.peek().map(|s| s.start);
         TaskSpaceState {
             state: i,
             u,
+            u_deviation: deviation / input.rate(u, skill.motion.alpha),
             position: path[before].lerp(&path[before + 1], at - before as f64),
             predictive: gmr.conditional_covariance(i).clone(),
             between: skill.compliance.between[i].clone(),

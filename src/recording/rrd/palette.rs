@@ -2,7 +2,7 @@
 
 use rerun::Color;
 
-use crate::palette::{self, Rgb};
+use crate::palette::{Rgb, meaning};
 
 /// A colour in rerun's terms.
 pub(super) const fn rgb(color: Rgb) -> Color {
@@ -10,23 +10,23 @@ pub(super) const fn rgb(color: Rgb) -> Color {
 }
 
 /// What was taught.
-pub(super) const TAUGHT: Color = rgb(palette::GREY);
+pub(super) const TAUGHT: Color = rgb(meaning::TAUGHT);
 /// What was generated.
-pub(super) const PLANNED: Color = rgb(palette::SKY_BLUE);
+pub(super) const PLANNED: Color = rgb(meaning::PLANNED);
 /// What was executed.
-pub(super) const EXECUTED: Color = rgb(palette::ORANGE);
+pub(super) const EXECUTED: Color = rgb(meaning::EXECUTED);
 /// A stiff state.
-pub(super) const STIFF: Color = rgb(palette::GREEN);
+pub(super) const STIFF: Color = rgb(meaning::STIFF);
 /// A state that complies.
-pub(super) const COMPLIES: Color = rgb(palette::PURPLE);
+pub(super) const COMPLIES: Color = rgb(meaning::COMPLIES);
 /// A state that minimises the force error.
-pub(super) const MINIMISES: Color = rgb(palette::YELLOW);
+pub(super) const MINIMISES: Color = rgb(meaning::MINIMISES);
 /// What is measured.
-pub(super) const MEASURED: Color = rgb(palette::BLUE);
+pub(super) const MEASURED: Color = rgb(meaning::MEASURED);
 /// What is expected.
-pub(super) const EXPECTED: Color = rgb(palette::YELLOW);
+pub(super) const EXPECTED: Color = rgb(meaning::EXPECTED);
 /// What the person does.
-pub(super) const PERSON: Color = rgb(palette::VERMILION);
+pub(super) const PERSON: Color = rgb(meaning::PERSON);
 /// Nothing of interest.
 pub(super) const IDLE: Color = rgb(Rgb::new(70, 74, 82));
 /// Behind the scene.

@@ -5,9 +5,7 @@ use nalgebra::{DVector, Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vect
 use super::paths::COLUMNS;
 use super::recorder::Fault;
 use crate::demonstration::Trajectory;
-use crate::learning::cpdmp::{MotionModel, Shaping};
-use crate::learning::dmp::PhaseInput;
-use crate::learning::{ExecutionSettings, TaskSpaceState, task_space_states};
+use crate::learning::{TaskSpaceState, task_space_states};
 use crate::simulation::{Experiment, RunOutcome};
 
 /// A state in task space.
@@ -28,18 +26,17 @@ pub(super) struct State {
 /// The states of the skill in the setting of `experiment`; none for a skill without states or without a place.
 pub(super) fn states(experiment: &Experiment, outcome: &RunOutcome, duration_s: f64) -> Result<Vec<State>, Fault> {
     let motion = &outcome.skill.motion;
-    let Shaping::Phmm(phmm) = &motion.shaping else { return Ok(Vec::new()) };
     let columns = COLUMNS.map(|name| motion.columns.iter().position(|column| column == name));
     let [Some(x), Some(y), Some(z)] = columns else { return Ok(Vec::new()) };
     let place = [x, y, z];
     let state = |found: &TaskSpaceState| State {
         time_s: found.u * duration_s,
-        time_deviation_s: phmm.covariances[found.state][(0, 0)].sqrt() * duration_s / rate_of_phase(motion, found.u),
+        time_deviation_s: found.u_deviation * duration_s,
         place: Vector3::from(place.map(|column| found.position[column])),
         spread: Matrix3::from_fn(|i, j| found.between[(place[i], place[j])]),
         beta: found.beta,
     };
-    Ok(task_space_states(&outcome.skill, &question(experiment))?.iter().map(state).collect())
+    Ok(task_space_states(&outcome.skill, &experiment.question())?.iter().map(state).collect())
 }
 
 impl State {
@@ -52,21 +49,6 @@ impl State {
         }
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
         (eigen.eigenvalues.map(|lambda| deviations * lambda.max(0.0).sqrt()), turn)
-    }
-}
-
-/// What the experiment asks of the skill.
-fn question(experiment: &Experiment) -> ExecutionSettings {
-    let theta = |names: &[String]| names.iter().filter_map(|name| Some((name.clone(), experiment.parameters.get(name)?))).collect();
-    let duration_s = experiment.execution.duration_s;
-    ExecutionSettings { theta_m: theta(&experiment.theta_m), theta_f: theta(&experiment.theta_f), duration_s, ..Default::default() }
-}
-
-/// |d input / d u| of the phase input at time fraction `u`: 1 for u itself, alpha s for the phase s.
-fn rate_of_phase(motion: &MotionModel, u: f64) -> f64 {
-    match motion.phase_input {
-        PhaseInput::TimeFraction => 1.0,
-        PhaseInput::Phase => motion.alpha * (-motion.alpha * u).exp(),
     }
 }
 

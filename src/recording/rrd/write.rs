@@ -10,7 +10,7 @@ use super::recorder::{Fault, Recorder, has_footer};
 use super::{blueprint_property, events, force_figure, guide, lanes, layout, paths, robot_figure, scene_figure, state_figure};
 use crate::recording::RecordingError;
 use crate::robot::{RobotModel, Shape};
-use crate::simulation::{Experiment, RunOutcome};
+use crate::simulation::{Experiment, RunOutcome, skill_duration_s};
 
 /// The application that the viewer keeps the layout for.
 const APPLICATION: &str = "cpdmp";
@@ -41,7 +41,7 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     let (blueprint, properties) = layout::layout(middle, floor_m(&outcome.robot))?;
     blueprint_property::send(&stream, APPLICATION, &blueprint, &properties)?;
 
-    let duration_s = duration_s(outcome);
+    let duration_s = skill_duration_s(&outcome.steps).unwrap_or_else(|| outcome.plan.duration_s());
     let recorder = Recorder::new(stream, &outcome.steps, experiment.physics.step_s, duration_s);
     recorder.always(WORLD.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
     robot_figure::log_robot(&recorder, &outcome.robot, &outcome.steps)?;
@@ -53,12 +53,6 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     events::log_events(&recorder, outcome)?;
     guide::log_guide(&recorder, experiment, outcome)?;
     recorder.finish()
-}
-
-/// How long the skill takes (s): by the last record before its end, or as planned.
-fn duration_s(outcome: &RunOutcome) -> f64 {
-    let inside = outcome.steps.iter().rev().find(|record| record.time_fraction > 0.0 && record.time_fraction < 1.0);
-    inside.map_or_else(|| outcome.plan.duration_s(), |record| record.time_s / record.time_fraction)
 }
 
 /// The middle of the way of the tool (m).

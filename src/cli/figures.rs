@@ -1,0 +1,78 @@
+//! `cpdmp figures`: draws the figures of a run again, from what its folder holds.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::args::{Format, Global};
+use super::failure::Failure;
+use super::figure_files::{Named, draw, of_arm, title};
+use super::learn::read_skill;
+use super::load::options;
+use super::planar_files;
+use super::terminal::Terminal;
+use crate::demonstration::Dataset;
+use crate::figure::ArmRun;
+use crate::recording::read_step_log;
+use crate::report::Outcome;
+use crate::scenario::{LoadOptions, PlanarRun, Scenario, Work};
+use crate::simulation::Experiment;
+
+/// What programs read.
+#[derive(Serialize)]
+struct Drawn<'a> {
+    schema_version: u32,
+    folder: &'a Path,
+    figures: Vec<&'a str>,
+}
+
+/// Draws the figures of the run in `folder` into its `figures/`, or into `--out`.
+pub(super) fn figures(folder: &Path, global: &Global, terminal: &Terminal) -> Outcome {
+    let figures = match of_folder(folder, global) {
+        Ok(figures) => figures,
+        Err(failure) => return failure.tell(terminal),
+    };
+    let place = global.out.clone().unwrap_or_else(|| folder.join("figures"));
+    let failures = draw(&figures, &place);
+    if !failures.is_empty() {
+        return Failure::new(Outcome::OutputFailed, failures).tell(terminal);
+    }
+    let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
+    match terminal.format {
+        Format::Json => terminal.json(&Drawn { schema_version: 1, folder: &place, figures: names }),
+        Format::Human => names.iter().for_each(|name| terminal.result(&format!("{}\n", place.join(name).display()))),
+    }
+    Outcome::Passed
+}
+
+fn of_folder(folder: &Path, global: &Global) -> Result<Vec<Named>, Failure> {
+    if !folder.join("manifest.json").is_file() {
+        let message = format!("{} is not the folder of a run: it holds no manifest.json", folder.display());
+        return Err(Failure::new(Outcome::InvalidInput, [message]));
+    }
+    // The run is drawn as it was: what would change it is not asked for.
+    let asked = LoadOptions { asset_roots: options(global).asset_roots, ..LoadOptions::default() };
+    let scenario = Scenario::load(&folder.join("scenario.toml"), &asked)?;
+    match &scenario.work {
+        Work::Arm(experiment) => stored_arm(folder, experiment),
+        Work::Planar(run) => repeated_plane(folder, run),
+    }
+}
+
+fn stored_arm(folder: &Path, experiment: &Experiment) -> Result<Vec<Named>, Failure> {
+    let log = folder.join("steps.parquet");
+    let steps = read_step_log(&log).map_err(|error| Failure::new(Outcome::InvalidInput, [error.to_string()]))?;
+    let path = folder.join("skill.json");
+    let skill = read_skill(&path)?;
+    let place = folder.join("demonstrations");
+    let dataset = Dataset::read(&place).map_err(|error| Failure::of_data(&place, &error))?;
+    let learned = (&skill, &dataset, &experiment.learning);
+    let run = ArmRun::new(title(&experiment.name, experiment.seed), &steps, learned, experiment.question());
+    run.and_then(|run| of_arm(&run)).map_err(|error| Failure::of_learning(&path, &error))
+}
+
+/// A planar experiment takes seconds, and its scenario decides every bit of it.
+fn repeated_plane(folder: &Path, run: &PlanarRun) -> Result<Vec<Named>, Failure> {
+    let left = run.run().map_err(|error| Failure::of_learning(folder, &error))?;
+    Ok(planar_files::figures(&left))
+}

@@ -1,0 +1,105 @@
+//! What the figures of an arm's run are drawn from.
+
+use nalgebra::DVector;
+
+use crate::demonstration::{Dataset, Trajectory};
+use crate::learning::{ExecutionSettings, LearningError, LearningSettings, Skill, TaskSpaceState, generate, task_space_states};
+use crate::palette::Rgb;
+use crate::palette::meaning::{COMPLIES, MINIMISES, STIFF};
+use crate::simulation::{StepRecord, skill_duration_s};
+
+use super::mark::Mark;
+
+/// Samples of a taught or planned movement that are drawn.
+const DRAWN_SAMPLES: usize = 400;
+
+/// Ellipses are drawn at this many standard deviations: 95 % of a Gaussian in one dimension.
+pub(super) const DEVIATIONS: f64 = 2.0;
+
+/// A run of an arm: what was executed, and the skill that it comes from. A run that was just carried out and one that was stored give the
+/// same figures.
+pub struct ArmRun<'a> {
+    /// What the figures are called.
+    pub(super) name: String,
+    /// The execution.
+    pub(super) steps: &'a [StepRecord],
+    /// The skill.
+    pub(super) skill: &'a Skill,
+    /// What it was learned from.
+    pub(super) dataset: &'a Dataset,
+    /// How it was learned.
+    pub(super) learning: &'a LearningSettings,
+    /// What it was asked.
+    pub(super) question: ExecutionSettings,
+    /// How long it took (s).
+    pub(super) duration_s: f64,
+    /// What it planned.
+    plan: Trajectory,
+    /// Its states in the setting; none for the baseline.
+    pub(super) states: Vec<TaskSpaceState>,
+}
+
+/// A movement along one axis: times (s) and values.
+pub(super) type Curve = Vec<[f64; 2]>;
+
+impl<'a> ArmRun<'a> {
+    /// The run called `name` with these records, of a skill that was learned from `dataset` and asked `question`.
+    ///
+    /// # Errors
+    /// When the skill cannot answer the question.
+    pub fn new(
+        name: String,
+        steps: &'a [StepRecord],
+        (skill, dataset, learning): (&'a Skill, &'a Dataset, &'a LearningSettings),
+        question: ExecutionSettings,
+    ) -> Result<Self, LearningError> {
+        let asked_s = question.duration_s.unwrap_or(skill.motion.duration_s);
+        let plan = generate(skill, &question, asked_s / DRAWN_SAMPLES as f64, 1.0)?;
+        let states = task_space_states(skill, &question)?;
+        let duration_s = skill_duration_s(steps).unwrap_or_else(|| plan.duration_s());
+        Ok(Self { name, steps, skill, dataset, learning, question, duration_s, plan, states })
+    }
+
+    /// The plan along a column; nothing when the skill does not move it.
+    pub(super) fn planned(&self, column: &str) -> Option<Curve> {
+        self.curve(&self.plan, column)
+    }
+
+    /// Every demonstration along a column, its duration stretched to that of the execution.
+    pub(super) fn taught(&self, column: &str) -> Vec<Curve> {
+        self.dataset.demonstrations.iter().filter_map(|demonstration| self.curve(&demonstration.trajectory, column)).collect()
+    }
+
+    fn curve(&self, movement: &Trajectory, column: &str) -> Option<Curve> {
+        let values: DVector<f64> = movement.column(column)?;
+        let (times, last) = (movement.times_s(), movement.samples() - 1);
+        let stretch = self.duration_s / movement.duration_s();
+        let every = (movement.samples() / DRAWN_SAMPLES).max(1);
+        let kept = (0..last).step_by(every).chain([last]);
+        Some(kept.map(|i| [(times[i] - times[0]) * stretch, values[i]]).collect())
+    }
+
+    /// A value of every record over time.
+    pub(super) fn executed(&self, value: impl Fn(&StepRecord) -> f64) -> Curve {
+        self.steps.iter().map(|step| [step.time_s, value(step)]).collect()
+    }
+
+    /// The stretches in which the arm complied, as marks.
+    pub(super) fn compliant_windows(&self) -> impl Iterator<Item = Mark> + '_ {
+        let complies = |step: &&StepRecord| step.activation > 0.0 && step.beta < 0.0;
+        let same = move |a: &StepRecord, b: &StepRecord| complies(&a) == complies(&b);
+        let windows = self.steps.chunk_by(same).filter(move |chunk| chunk.first().is_some_and(|first| complies(&first)));
+        windows
+            .filter_map(|window| Some([window.first()?.time_s, window.last()?.time_s]))
+            .map(|ends| Mark::band("the arm complies", COMPLIES, 0.13, ends))
+    }
+}
+
+/// The colour of a state, and what the legend calls it.
+pub(super) fn kind_of(beta: f64) -> (Rgb, &'static str) {
+    match beta {
+        beta if beta < 0.0 => (COMPLIES, "state that complies"),
+        beta if beta > 0.0 => (MINIMISES, "state that minimises the force"),
+        _ => (STIFF, "stiff state"),
+    }
+}

@@ -1,0 +1,22 @@
+//! What the colours mean, in figures and recordings alike.
+
+use super::{BLUE, GREEN, GREY, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, YELLOW};
+
+/// What was taught.
+pub const TAUGHT: Rgb = GREY;
+/// What the skill generates for a setting without any force.
+pub const PLANNED: Rgb = SKY_BLUE;
+/// What was executed.
+pub const EXECUTED: Rgb = ORANGE;
+/// A stiff state.
+pub const STIFF: Rgb = GREEN;
+/// A state that complies.
+pub const COMPLIES: Rgb = PURPLE;
+/// A state that minimises the force error.
+pub const MINIMISES: Rgb = YELLOW;
+/// A force as it is measured.
+pub const MEASURED: Rgb = BLUE;
+/// A force as it is expected.
+pub const EXPECTED: Rgb = YELLOW;
+/// What the person does.
+pub const PERSON: Rgb = VERMILION;
