@@ -1,5 +1,6 @@
 //! What no single key can tell: names that refer to something, times that rise, settings that agree with each other.
 
+use super::check_doors::openings;
 use super::check_names::{references, unique_names};
 use super::check_planar::planar;
 use super::check_taught::{grid, parameters_are_taught};
@@ -23,6 +24,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
         grid(scenario, teaching, &mut faults);
         parameters_are_taught(scenario, teaching, &mut faults);
         waypoints(teaching, &mut faults);
+        openings(scenario, teaching, &mut faults);
     }
     joints(scenario, &mut faults);
     axes(scenario, &mut faults);

@@ -10,6 +10,7 @@ mod build_criteria;
 mod build_learning;
 mod build_planar;
 mod build_scene;
+mod check_doors;
 mod check_names;
 mod check_planar;
 mod check_taught;

@@ -42,9 +42,14 @@ impl Door {
         let Some(id) = engine.multibody_joints.rigid_body_link(self.body).map(|link| link.id) else { return };
         let Some((multibody, _)) = engine.multibody_joints.get_mut(self.joint) else { return };
         let Some(link) = multibody.link_mut(id) else { return };
-        let pressed = link.joint().coords()[ANGLE] < 0.0;
-        let stiffness = if pressed { self.seal_nm_per_rad } else { 0.0 };
-        link.joint.data.set_motor_position(JointAxis::AngX, 0.0, stiffness, stiffness * SEAL_TIME_S);
+        let pressed = link.joint().coords()[ANGLE] < 0.0 && self.seal_nm_per_rad > 0.0;
+        let hinge = &mut link.joint.data;
+        if pressed {
+            hinge.set_motor_position(JointAxis::AngX, 0.0, self.seal_nm_per_rad, self.seal_nm_per_rad * SEAL_TIME_S);
+        } else {
+            // To the engine a spring without stiffness is a rigid one.
+            hinge.motor_axes.remove(JointAxesMask::ANG_X);
+        }
     }
 }
 
