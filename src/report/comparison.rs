@@ -1,12 +1,13 @@
 //! What several methods made of the same settings, side by side: plain data, and a table of it for people.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::figure;
 use crate::planar::{Case, Guidance, Method, Movement, PlanarOutcome};
 
 /// Methods beside each other.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ComparisonReport {
     /// Every setting, with what each method made of it.
     pub settings: Vec<SettingReport>,
@@ -15,7 +16,7 @@ pub struct ComparisonReport {
 }
 
 /// One setting.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SettingReport {
     /// Its name.
     pub name: String,
@@ -34,7 +35,7 @@ pub struct SettingReport {
 }
 
 /// One movement of one method in one setting.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MovementReport {
     /// The method.
     pub method: &'static str,
@@ -53,7 +54,7 @@ pub struct MovementReport {
 }
 
 /// One method over all settings.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MethodSummary {
     /// The method.
     pub method: &'static str,
@@ -90,14 +91,6 @@ fn methods_of(cases: &[&Case]) -> Vec<Method> {
     methods
 }
 
-fn guidance_name(guidance: Guidance) -> &'static str {
-    match guidance {
-        Guidance::OneSide => "one_side",
-        Guidance::WithSide => "with_side",
-        Guidance::WithoutSide => "without_side",
-    }
-}
-
 fn kind(case: &Case) -> &'static str {
     match (case.taught, case.extrapolation > 0.0) {
         (true, _) => "taught",
@@ -113,7 +106,7 @@ fn finite(number: f64) -> Option<f64> {
 fn setting(case: &Case) -> SettingReport {
     SettingReport {
         name: case.name.clone(),
-        guidance: guidance_name(case.guidance),
+        guidance: case.guidance.key(),
         kind: kind(case),
         extrapolation: finite(case.extrapolation),
         ideal_clearance_m: case.ideals.iter().map(|ideal| ideal.clearance_m).reduce(f64::min),
@@ -138,7 +131,7 @@ fn summary(method: Method, guidance: Guidance, cases: &[&Case]) -> MethodSummary
     let movements = || cases.iter().flat_map(|case| case.of(method));
     MethodSummary {
         method: method.key(),
-        guidance: guidance_name(guidance),
+        guidance: guidance.key(),
         movements: movements().count(),
         collisions: movements().filter(|movement| movement.collides).count(),
         wins: cases.iter().filter(|case| case.winner == Some(method)).count(),

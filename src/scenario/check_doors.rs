@@ -16,7 +16,8 @@ pub(super) fn openings(scenario: &Node, teaching: &Node, faults: &mut Vec<Fault>
             continue;
         };
         if let Some(limit) = door.get("opening_max_rad").and_then(Node::as_number).filter(|limit| angle > *limit) {
-            let message = format!("this way-point is at an opening of {} rad, but the door opens no further than {}", plain(angle), plain(limit));
+            let message =
+                format!("this way-point is at an opening of {} rad, but the door opens no further than {}", plain(angle), plain(limit));
             let fault = Fault::at(Code::OutOfRange, opening.origin, message);
             faults.push(fault.expected(format!("at most {} rad, or a greater `opening_max_rad` of the cabinet", plain(limit))));
         }

@@ -1,8 +1,8 @@
 //! The table of keys: the whole scenario language on one page.
 
 use super::key::Kind::{
-    Choice, Count, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References, Section, Tag,
-    Text, Vector, Windows,
+    Choice, Count, CountOrWord, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References,
+    Section, Tag, Text, Vector, Windows,
 };
 use super::key::Length::{AtLeast, Exactly};
 use super::key::To::{MovableObject, Object, ObjectOfKind, Parameter};
@@ -47,12 +47,12 @@ const PLANAR: Shape = Shape {
         Key::new("start_m", Vector(within("m", -100.0, 100.0), Exactly(2)), "where movements start").or(Preset::Vector(&[0.0, -4.0])),
         Key::new("clearance_m", Number(within("m", 0.01, 10.0)), "distance at which the person passes the obstacle's edge").or_number(1.0),
         Key::new("pass_fraction", Number(within("", 0.1, 0.9)), "when they pass it, as a fraction of the duration").or_number(0.5),
-        Key::new("hand", Section(HAND), "how movements are shown").or_empty(),
     ],
     variants: &[
         Variant {
             kind: "obstacle_avoidance",
             keys: &[
+                Key::new("hand", Section(TWICE), "how movements are shown").or_empty(),
                 Key::new("goal_y_m", Number(within("m", -100.0, 100.0)), "where goals lie along y").or_number(4.0),
                 Key::new("obstacle_half_width_m", Number(within("m", 0.05, 10.0)), "half width of the obstacle, along x").or_number(1.0),
                 Key::new("taught_goals_x_m", Vector(within("m", -100.0, 100.0), AtLeast(2)), "taught goals along x")
@@ -64,6 +64,7 @@ const PLANAR: Shape = Shape {
         Variant {
             kind: "two_sided_obstacle",
             keys: &[
+                Key::new("hand", Section(THRICE), "how movements are shown").or_empty(),
                 Key::new(
                     "taught_half_widths_m",
                     Vector(within("m", 0.05, 10.0), AtLeast(2)),
@@ -83,16 +84,21 @@ const PLANAR: Shape = Shape {
     ],
 };
 
-const HAND: Shape = Shape::plain(&[
-    Key::new("repetitions", Count(1, 50), "how often each situation is shown").or(Preset::Count(2)),
-    Key::new("duration_s", Number(within("s", 0.5, 60.0)), "mean duration").or_number(4.0),
-    Key::new("rate_hz", Number(within("Hz", 10.0, 1000.0)), "samples per second").or_number(100.0),
-    Key::new("duration_spread", Number(within("", 0.0, 0.3)), "spread of the duration, as a fraction of it").or_number(0.05),
-    Key::new("timing_spread", Number(within("", 0.0, 0.1)), "spread of when the obstacle is passed, as a fraction of the duration")
-        .or_number(0.02),
-    Key::new("shape_spread_m", Number(within("m", 0.0, 1.0)), "spread of where it is passed, per axis").or_number(0.05),
-    Key::new("noise_m", Number(within("m", 0.0, 0.1)), "noise of the position sensor per axis, standard deviation").or_number(0.002),
-]);
+const TWICE: Shape = Shape::plain(&hand(2));
+const THRICE: Shape = Shape::plain(&hand(3));
+
+const fn hand(repetitions: i64) -> [Key; 7] {
+    [
+        Key::new("repetitions", Count(1, 50), "how often each situation is shown").or(Preset::Count(repetitions)),
+        Key::new("duration_s", Number(within("s", 0.5, 60.0)), "mean duration").or_number(4.0),
+        Key::new("rate_hz", Number(within("Hz", 10.0, 1000.0)), "samples per second").or_number(100.0),
+        Key::new("duration_spread", Number(within("", 0.0, 0.3)), "spread of the duration, as a fraction of it").or_number(0.05),
+        Key::new("timing_spread", Number(within("", 0.0, 0.1)), "spread of when the obstacle is passed, as a fraction of the duration")
+            .or_number(0.02),
+        Key::new("shape_spread_m", Number(within("m", 0.0, 1.0)), "spread of where it is passed, per axis").or_number(0.05),
+        Key::new("noise_m", Number(within("m", 0.0, 0.1)), "noise of the position sensor per axis, standard deviation").or_number(0.002),
+    ]
+}
 
 const ROBOT: Shape = Shape::plain(&[
     Key::new("urdf", Path(PathTo::Robot), "the robot's description").or(Preset::Text("builtin:baxter")),
@@ -144,7 +150,11 @@ const OBJECT: Shape = Shape {
     keys: &[
         Key::new("name", Name, "its name in reports, way-points and criteria"),
         Key::new("kind", Tag, "what it is"),
-        Key::new("center_m", Vector(within("m", -3.0, 3.0), Exactly(2)), "centre in the horizontal plane (x forward, y left of the robot); of a cabinet, its hinge"),
+        Key::new(
+            "center_m",
+            Vector(within("m", -3.0, 3.0), Exactly(2)),
+            "centre in the horizontal plane (x forward, y left of the robot); of a cabinet, its hinge",
+        ),
         Key::new("lateral_offset_m", Quantity(within("m", -1.0, 1.0)), "added to the centre along x").or_number(0.0),
     ],
     variants: &[
@@ -217,8 +227,12 @@ const CABINET: &[Key] = &[
     Key::new("handle_length_m", Number(within("m", 0.04, 1.0)), "length of a handle's bar").or_number(0.12),
     Key::new("handle_radius_m", Number(within("m", 0.001, 0.05)), "radius of a handle's bar").or_number(0.006),
     Key::new("handle_standoff_m", Number(within("m", 0.01, 0.2)), "distance of a bar's axis from the door's face").or_number(0.04),
-    Key::new("grip", Choice(&["clamp", "contact"]), "how a hook holds the handle: a clamp that closes with the gripper, or nothing but contact")
-        .or(Preset::Text("clamp")),
+    Key::new(
+        "grip",
+        Choice(&["clamp", "contact"]),
+        "how a hook holds the handle: a clamp that closes with the gripper, or nothing but contact",
+    )
+    .or(Preset::Text("clamp")),
 ];
 
 const TEACHING: Shape = Shape::plain(&[
@@ -255,6 +269,8 @@ const WAYPOINT: Shape = Shape::plain(&[
 const LEARNING: Shape = Shape::plain(&[
     Key::new("theta_m", References(Parameter), "parameters that the motion model is told").or_empty(),
     Key::new("theta_f", References(Parameter), "parameters that the force model is told; none for a fixed one").or_empty(),
+    Key::new("space", Choice(&["task", "joint"]), "what the motion model learns: the place of the tool (m), or the arm's joints (rad)")
+        .or(Preset::Text("task")),
     Key::new("shaping", Choice(&["phmm", "lwr"]), "what stands for the forcing term: the paper's model, or its baseline")
         .or(Preset::Text("phmm")),
     Key::new("stiffness", Number(within("", 1.0, 1e7)), "stiffness K of the movement primitive (1)").or_number(5000.0),
@@ -268,11 +284,15 @@ const LEARNING: Shape = Shape::plain(&[
     Key::new("orientation_basis", Count(2, 500), "basis functions of the orientation").or(Preset::Count(40)),
     Key::new("align", Flag, "whether demonstrations are brought to one timing first, by one warp each for all columns")
         .or(Preset::Flag(false)),
-    Key::new("automatic_ridge", Flag, "whether the motion model's ridge is chosen by leaving demonstrations out").or(Preset::Flag(false)),
-    Key::new("states_criterion", Choice(&["given", "bic", "cross_validation"]), "what chooses the motion model's number of states")
-        .or(Preset::Text("given")),
-    Key::new("states_min", Count(1, 200), "fewest states that are tried").or(Preset::Count(4)),
-    Key::new("states_max", Count(1, 200), "most states that are tried").or(Preset::Count(24)),
+    Key::new("automatic_ridge", Flag, "the same as motion.ridge = \"auto\"").or(Preset::Flag(false)),
+    Key::new(
+        "states_criterion",
+        Choice(&["given", "bic", "cross_validation"]),
+        "what decides about states = \"auto\": `given` leaves it to cross-validation; another word makes motion.states \"auto\"",
+    )
+    .or(Preset::Text("given")),
+    Key::new("states_min", Count(1, 200), "fewest states that are tried for \"auto\"").or(Preset::Count(4)),
+    Key::new("states_max", Count(1, 200), "most states that are tried for \"auto\"").or(Preset::Count(24)),
     Key::new("motion", Section(MOTION_MODEL), "the hidden Markov model of the motion").or_empty(),
     Key::new("force", Section(FORCE_MODEL), "the hidden Markov model of the force").or_empty(),
     Key::new("compliance", Section(COMPLIANCE), "where the skill complies (20)").or_empty(),
@@ -281,9 +301,13 @@ const LEARNING: Shape = Shape::plain(&[
 const MOTION_MODEL: Shape = Shape::plain(&hidden_markov_model(16));
 const FORCE_MODEL: Shape = Shape::plain(&hidden_markov_model(10));
 
+/// The word for what the demonstrations choose.
+pub(super) const AUTO: &str = "auto";
+
 const fn hidden_markov_model(states: i64) -> [Key; 12] {
     [
-        Key::new("states", Count(1, 200), "number of states").or(Preset::Count(states)),
+        Key::new("states", CountOrWord(1, 200, AUTO), "number of states; \"auto\" tries states_min to states_max")
+            .or(Preset::Count(states)),
         Key::new("topology", Choice(&["left_to_right", "ergodic"]), "which transitions exist").or(Preset::Text("left_to_right")),
         Key::new("weights_on_phase", Flag, "whether parameters also move the phase at which a state sits").or(Preset::Flag(false)),
         Key::new("features", Choice(&["linear", "quadratic", "rbf"]), "functions of the parameters that the means are linear in")
@@ -297,7 +321,12 @@ const fn hidden_markov_model(states: i64) -> [Key; 12] {
             "whether covariances are learned with the parameters, or kept from the model without",
         )
         .or(Preset::Text("estimated")),
-        Key::new("ridge", Number(within("", 0.0, 1e6)), "strength of the prior W = 0, as a number of demonstrations").or_number(0.1),
+        Key::new(
+            "ridge",
+            NumberOrWord(within("", 0.0, 1e6), AUTO),
+            "strength of the prior W = 0, as a number of demonstrations; \"auto\" leaves demonstrations out to choose it",
+        )
+        .or_number(0.1),
         Key::new("covariance_floor", Number(within("", 0.0, 0.1)), "smallest eigenvalue of a covariance, columns scaled to 1; 0 for none")
             .or_number(1e-5),
         Key::new("kmeans_starts", Count(0, 1000), "starts by k-means, besides the two by time slices").or(Preset::Count(4)),
@@ -309,7 +338,12 @@ const fn hidden_markov_model(states: i64) -> [Key; 12] {
 const COMPLIANCE: Shape = Shape::plain(&[
     Key::new("statistic", Choice(&["between_demonstration", "conditional", "literal"]), "which covariance of a state decides")
         .or(Preset::Text("between_demonstration")),
-    Key::new("threshold_m2", NumberOrWord(above("m²", 0.0, 1e6), "automatic"), "a state complies when it exceeds this").or_number(1e-4),
+    Key::new(
+        "threshold_m2",
+        NumberOrWord(above("m²", 0.0, 1e6), "automatic"),
+        "a state complies when it exceeds this; in joint space rad²",
+    )
+    .or_number(1e-4),
 ]);
 
 const COUPLING: Shape = Shape::plain(&[
@@ -317,6 +351,19 @@ const COUPLING: Shape = Shape::plain(&[
     Key::new("compliance_m_per_n", Vector(within("m/N", 0.0, 10.0), AtLeast(1)), "displacement per force error: per axis, or one for all")
         .or(Preset::Vector(&[0.01])),
     Key::new("saturation_m", Number(within("m", 0.0, 10.0)), "largest displacement, per axis").or_number(0.1),
+    Key::new(
+        "space",
+        Choice(&["task", "joint"]),
+        "J of (17): the identity, so that a force moves the tool along itself, or the arm's Jacobian, for a motion of the joints",
+    )
+    .or(Preset::Text("task")),
+    Key::new(
+        "compliance_rad_per_nm",
+        Vector(within("rad/(N m)", 0.0, 10.0), AtLeast(1)),
+        "turn per torque J^T (F - F_des) at the joints, in joint space: per joint, or one for all",
+    )
+    .or(Preset::Vector(&[0.01])),
+    Key::new("saturation_rad", Number(within("rad", 0.0, 10.0)), "largest displacement per joint, in joint space").or_number(0.3),
     Key::new("convention", Choice(&["on_robot", "on_world"]), "whose force the wrench columns hold").or(Preset::Text("on_robot")),
     Key::new("switching", Choice(&["smooth", "hard"]), "how the coupling goes on and off at the edges of a window")
         .or(Preset::Text("smooth")),
@@ -333,6 +380,27 @@ const COUPLING: Shape = Shape::plain(&[
 
 const EXECUTION: Shape = Shape::plain(&[
     Key::new("duration_s", Number(within("s", 0.5, 600.0)), "duration of the skill; that of the demonstrations without it").optional(),
+    Key::new("integrator", Choice(&["hold", "rk4"]), "exact for a forcing held over the step, or Runge-Kutta").or(Preset::Text("hold")),
+    Key::new(
+        "feedback",
+        Choice(&["none", "measured"]),
+        "whether the skill goes on from where it sent the arm, or is drawn to where the arm is",
+    )
+    .or(Preset::Text("none")),
+    Key::new("feedback_time_s", Number(within("s", 0.001, 100.0)), "time constant with which it is drawn there").or_number(0.2),
+    Key::new(
+        "phase_stopping",
+        Flag,
+        "whether the phase waits while the movement is off its path: pushed by the coupling or, with feedback, held back",
+    )
+    .or(Preset::Flag(false)),
+    Key::new(
+        "phase_stopping_gain",
+        Number(within("per m² or rad²", 0.0, 1e9)),
+        "the phase's rate is 1 / (1 + gain times the squared distance from the path)",
+    )
+    .or_number(1e4),
+    Key::new("phase_stopping_slowest", Number(within("", 0.001, 1.0)), "the rate below which it never falls").or_number(0.05),
     Key::new("settle_s", Number(within("s", 0.0, 60.0)), "how long the run goes on before the world is judged").or_number(1.5),
 ]);
 
@@ -384,7 +452,7 @@ const HELP: Shape = Shape {
 
 const RECORDING: Shape = Shape::plain(&[
     Key::new("rrd", Flag, "recording.rrd, for the rerun viewer").or(Preset::Flag(true)),
-    Key::new("steps", Flag, "steps.parquet, one row per logged step").or(Preset::Flag(true)),
+    Key::new("steps", Flag, "steps.parquet, one row per logged step; paths.parquet of a planar experiment").or(Preset::Flag(true)),
     Key::new("demonstrations", Flag, "demonstrations/, the dataset that was learned from").or(Preset::Flag(true)),
 ]);
 
@@ -433,7 +501,11 @@ const CRITERION: Shape = Shape {
             kind: "hook_kept",
             keys: &[
                 Key::new("object", Reference(ObjectOfKind("cabinet")), "the cabinet"),
-                Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest horizontal distance of the tool from the axis of the handle in use"),
+                Key::new(
+                    "max_m",
+                    Number(within("m", 0.0, 1.0)),
+                    "largest horizontal distance of the tool from the axis of the handle in use",
+                ),
             ],
         },
         Variant {
@@ -538,7 +610,7 @@ mod tests {
                 (Vector(measure, AtLeast(length)), Preset::Vector(numbers)) => {
                     numbers.len() >= length && numbers.iter().all(|&number| measure.accepts(number))
                 }
-                (Count(min, max), Preset::Count(count)) => (min..=max).contains(&count),
+                (Count(min, max) | CountOrWord(min, max, _), Preset::Count(count)) => (min..=max).contains(&count),
                 (Choice(choices), Preset::Text(text)) => choices.contains(&text),
                 (Flag, Preset::Flag(_)) | (Text | Path(_) | Tag, Preset::Text(_)) => true,
                 (Numbers | Grid | Section(_) | List(_) | References(_) | Folders, Preset::Empty) => true,

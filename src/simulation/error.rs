@@ -1,6 +1,6 @@
 //! Why an experiment could not be carried out.
 
-use crate::control::ArmModelError;
+use crate::control::{ArmModelError, UnmeasuredWrench};
 use crate::demonstration::DemonstrationError;
 use crate::learning::LearningError;
 use crate::robot::UrdfError;
@@ -16,7 +16,9 @@ pub enum SimulationError {
     #[error(transparent)]
     Arm(#[from] ArmModelError),
     /// A pose of the plan cannot be reached.
-    #[error("{what} cannot be reached: the arm ends {position_mm:.1} mm and {angle_deg:.1} deg away, {joint}; move the object or the way-point")]
+    #[error(
+        "{what} cannot be reached: the arm ends {position_mm:.1} mm and {angle_deg:.1} deg away, {joint}; move the object or the way-point"
+    )]
     Unreachable {
         /// Which pose.
         what: String,
@@ -28,7 +30,9 @@ pub enum SimulationError {
         joint: String,
     },
     /// On the way from one pose of the plan to the next, the arm would have to swing into another posture.
-    #[error("{what} cannot be reached without swinging the arm: joint `{joint}` would turn by {turn_deg:.0} deg within {within_s} s; move the object or the way-point, or give another `robot.rest_posture_rad`")]
+    #[error(
+        "{what} cannot be reached without swinging the arm: joint `{joint}` would turn by {turn_deg:.0} deg within {within_s} s; move the object or the way-point, or give another `robot.rest_posture_rad`"
+    )]
     Swing {
         /// Which pose.
         what: String,
@@ -42,6 +46,9 @@ pub enum SimulationError {
     /// Lists of the scenario have another length than the robot's arms, one sentence each.
     #[error("{}", .0.join("\n"))]
     JointCounts(Vec<String>),
+    /// The skill takes a wrench that the arm does not measure.
+    #[error(transparent)]
+    Wrench(#[from] UnmeasuredWrench),
     /// The world could not be built, or diverged.
     #[error(transparent)]
     World(#[from] WorldError),

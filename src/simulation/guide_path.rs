@@ -111,10 +111,8 @@ impl GuidePath {
         let turn = door_turn(point.w);
         let angular_velocity = -Vector3::z() * velocity.w;
         let arm = turn * (point.xyz() - self.hinge);
-        let pose = Isometry3::from_parts(
-            Translation3::from(self.hinge + arm),
-            door_turn(self.turns_with_door * point.w) * self.orientation,
-        );
+        let pose =
+            Isometry3::from_parts(Translation3::from(self.hinge + arm), door_turn(self.turns_with_door * point.w) * self.orientation);
         let linear_velocity = turn * velocity.xyz() + angular_velocity.cross(&arm);
         GuidePoint { pose, linear_velocity, angular_velocity: self.turns_with_door * angular_velocity, gripper }
     }

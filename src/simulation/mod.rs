@@ -14,12 +14,13 @@ mod reachable;
 mod replay;
 mod run;
 mod setup;
+mod space;
 mod step_loop;
 mod step_record;
 mod teaching;
 
 pub use error::SimulationError;
-pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings, TeachingPlan, Waypoint};
+pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings, TeachingPlan, Waypoint};
 pub use outcome::{AppliedForce, FinalObject, PhaseSummary, RunOutcome};
 pub use progress::{Progress, Silent};
 pub use run::{History, demonstrate, perform, run};

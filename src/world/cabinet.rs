@@ -93,7 +93,8 @@ impl Cabinet {
     /// Names and middles of all bars, in the door's frame (m).
     pub fn bars(&self, hinge_y_m: f64, parameters: &Parameters) -> Vec<(&'static str, Point3<f64>)> {
         let used = self.handle_distance_m(hinge_y_m, parameters);
-        let row = (0..self.handles.min(HANDLE_NAMES.len())).map(|k| (HANDLE_NAMES[k], self.first_handle_m + k as f64 * self.handle_spacing_m));
+        let row =
+            (0..self.handles.min(HANDLE_NAMES.len())).map(|k| (HANDLE_NAMES[k], self.first_handle_m + k as f64 * self.handle_spacing_m));
         let mut bars: Vec<(&str, f64)> = row.filter(|(_, place)| clear_of(*place, used, self.handle_spacing_m)).collect();
         if bars.iter().all(|(_, place)| (place - used).abs() > SAME_PLACE_M) {
             bars.push((OTHER_HANDLE, used));

@@ -82,7 +82,8 @@ pub(super) fn build(
 
 /// Puts the door on its hinge. The joint's own axis is its frames' x, which points down: the door opens with a positive angle.
 fn hang(engine: &mut PhysicsWorld, cabinet: &Cabinet, walls: RigidBodyHandle, door: RigidBodyHandle) -> Option<Door> {
-    let down = Isometry3::from_parts(Vector3::zeros().into(), UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_2));
+    let down =
+        Isometry3::from_parts(Vector3::zeros().into(), UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_2));
     let hinge = GenericJointBuilder::new(JointAxesMask::LOCKED_REVOLUTE_AXES)
         .local_frame1(convert::pose(&down))
         .local_frame2(convert::pose(&down))

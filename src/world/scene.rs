@@ -3,9 +3,9 @@
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use rapier3d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape};
 
+use super::door::Door;
 use super::parts::{Owner, Part, Parts};
 use super::physics::Layer;
-use super::door::Door;
 use super::{Object, ObjectKind, Parameters, convert, door, support_height_m};
 
 /// A part of an object that is drawn and touched: a shape in the object's frame.
@@ -114,7 +114,12 @@ pub fn initial_pose(object: &Object, parameters: &Parameters, support_height: f6
 }
 
 /// Builds all objects; returns the engine's body of each in their order, of a cabinet that of its door, and the doors.
-pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &Parameters, parts: &mut Parts) -> (Vec<RigidBodyHandle>, Vec<Door>) {
+pub(super) fn build(
+    engine: &mut PhysicsWorld,
+    objects: &[Object],
+    parameters: &Parameters,
+    parts: &mut Parts,
+) -> (Vec<RigidBodyHandle>, Vec<Door>) {
     let support = support_height_m(objects);
     let (mut bodies, mut doors) = (Vec::with_capacity(objects.len()), Vec::new());
     for (index, object) in objects.iter().enumerate() {

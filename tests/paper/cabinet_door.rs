@@ -202,7 +202,8 @@ fn what_cannot_be_reached_is_said_before_the_first_step() {
     };
     let far = refused(&["object.cabinet.center_m=[1.3, 0.65]"]);
     assert!(far.starts_with("way-point 1 (at cabinet) of lesson 1 cannot be reached") && far.contains("joint `left_"), "{far}");
-    let wide = refused(&["object.cabinet.center_m=[0.62, 0.65]", "object.cabinet.opening_max_rad=3.0", "teaching.waypoint.1.opening_rad=2.9"]);
+    let wide =
+        refused(&["object.cabinet.center_m=[0.62, 0.65]", "object.cabinet.opening_max_rad=3.0", "teaching.waypoint.1.opening_rad=2.9"]);
     assert!(wide.contains("of lesson 1") && wide.contains("joint `left_"), "{wide}");
     let inside = refused(&["object.cabinet.handle_length_m=0.04", "object.cabinet.handle_standoff_m=0.015"]);
     assert!(inside.contains("`left_hook` is ") && inside.contains("inside `cabinet.door`"), "{inside}");
@@ -224,7 +225,10 @@ fn a_door_carries_its_handle_on_a_circle() {
         let place = (pose * handle).coords.xy() - hinge;
         // 25 cm from the hinge, 4 cm before the face.
         assert!((place.norm() - 0.25_f64.hypot(0.04)).abs() < 1e-12);
-        assert!((place - Vector2::new(-0.25 * opening.sin() - 0.04 * opening.cos(), -0.25 * opening.cos() + 0.04 * opening.sin())).norm() < 1e-12);
+        assert!(
+            (place - Vector2::new(-0.25 * opening.sin() - 0.04 * opening.cos(), -0.25 * opening.cos() + 0.04 * opening.sin())).norm()
+                < 1e-12
+        );
     }
     let names = |y: f64| cabinet.bars(hinge.y, &at(y)).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
     assert_eq!(names(0.35), ["handle_1", "handle_2", "handle_3", "handle_4", "handle_5"]);

@@ -3,11 +3,14 @@
 mod cabinet_door;
 mod dataset_damage;
 mod dataset_import;
+mod execution_modes;
 mod learning_coupling;
 mod learning_datasets;
 mod learning_execution;
+mod learning_hostile;
 mod learning_laws;
 mod learning_motion;
+mod learning_noise;
 mod learning_orientation;
 mod learning_pick_and_place;
 mod learning_selection;
