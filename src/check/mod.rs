@@ -3,6 +3,7 @@
 mod criterion;
 mod door;
 mod judge;
+mod judge_objects;
 mod judge_planar;
 mod place;
 mod windows;

@@ -24,9 +24,23 @@ pub(super) fn openings(scenario: &Node, teaching: &Node, faults: &mut Vec<Fault>
     }
 }
 
+/// Cabinets stand square: their doors look at the robot.
+pub(super) fn square_cabinets(scenario: &Node, faults: &mut Vec<Fault>) {
+    for object in list(scenario, "object").iter().filter(|object| is_cabinet(object)) {
+        if let Some(yaw) = object.get("yaw_rad").filter(|yaw| yaw.as_number() != Some(0.0)) {
+            let fault = Fault::at(Code::Conflict, yaw.origin, "a cabinet that is turned");
+            faults.push(fault.expected("no `yaw_rad`: the door of a cabinet looks along -x, towards the robot"));
+        }
+    }
+}
+
+fn is_cabinet(object: &Node) -> bool {
+    object.get("kind").and_then(Node::as_text) == Some("cabinet")
+}
+
 /// The cabinet that a way-point lies at.
 fn cabinet<'a>(scenario: &'a Node, waypoint: &Node) -> Option<&'a Node> {
     let name = waypoint.get("at").and_then(Node::as_text)?;
     let object = list(scenario, "object").iter().find(|object| object.name() == Some(name))?;
-    (object.get("kind").and_then(Node::as_text) == Some("cabinet")).then_some(object)
+    is_cabinet(object).then_some(object)
 }

@@ -156,6 +156,9 @@ const OBJECT: Shape = Shape {
             "centre in the horizontal plane (x forward, y left of the robot); of a cabinet, its hinge",
         ),
         Key::new("lateral_offset_m", Quantity(within("m", -1.0, 1.0)), "added to the centre along x").or_number(0.0),
+        Key::new("offset_y_m", Quantity(within("m", -1.0, 1.0)), "added to the centre along y").or_number(0.0),
+        Key::new("raised_m", Quantity(within("m", -1.0, 1.0)), "added to the height at which it stands").or_number(0.0),
+        Key::new("yaw_rad", Quantity(within("rad", -7.0, 7.0)), "turn about the vertical through its centre").or_number(0.0),
     ],
     variants: &[
         Variant {
@@ -163,7 +166,7 @@ const OBJECT: Shape = Shape {
             keys: &[
                 Key::new("size_m", Vector(within("m", 0.01, 5.0), Exactly(2)), "extent along x and y"),
                 Key::new("top_height_m", Number(within("m", -2.0, 2.0)), "height of its top above the robot's base frame"),
-                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
             ],
         },
         Variant {
@@ -174,14 +177,15 @@ const OBJECT: Shape = Shape {
                 Key::new("post_height_m", Number(within("m", 0.005, 1.0)), "height of the posts above the base"),
                 Key::new("post_width_m", Number(within("m", 0.001, 1.0)), "width of each post, along x").or_number(0.03),
                 Key::new("thickness_m", Number(within("m", 0.001, 1.0)), "extent along y").or_number(0.05),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.5),
             ],
         },
         Variant {
             kind: "ball",
             keys: &[
                 Key::new("radius_m", Number(within("m", 0.001, 0.5)), "radius"),
-                Key::new("mass_kg", Number(within("kg", 0.001, 50.0)), "mass"),
-                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.8),
+                Key::new("mass_kg", Quantity(within("kg", 0.001, 50.0)), "mass"),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.8),
                 Key::new("rolling_damping_per_s", Number(within("1/s", 0.0, 1000.0)), "rolling resistance, as angular damping")
                     .or_number(5.0),
             ],
@@ -190,8 +194,30 @@ const OBJECT: Shape = Shape {
             kind: "box",
             keys: &[
                 Key::new("size_m", Vector(within("m", 0.001, 2.0), Exactly(3)), "extent along x, y, z"),
-                Key::new("mass_kg", Number(within("kg", 0.001, 50.0)), "mass"),
-                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+                Key::new("mass_kg", Quantity(within("kg", 0.001, 50.0)), "mass").or_number(1.0),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+                Key::new("fixed", Flag, "whether it is fixed to the world instead of free to move").or(Preset::Flag(false)),
+            ],
+        },
+        Variant {
+            kind: "cylinder",
+            keys: &[
+                Key::new("radius_m", Number(within("m", 0.001, 1.0)), "radius"),
+                Key::new("height_m", Number(within("m", 0.001, 2.0)), "height: it stands upright"),
+                Key::new("mass_kg", Quantity(within("kg", 0.001, 50.0)), "mass").or_number(0.5),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+                Key::new("fixed", Flag, "whether it is fixed to the world instead of free to move").or(Preset::Flag(false)),
+            ],
+        },
+        Variant {
+            kind: "spring_plate",
+            keys: &[
+                Key::new("size_m", Vector(within("m", 0.001, 2.0), Exactly(3)), "extent of the plate along x, y, z"),
+                Key::new("travel_m", Number(within("m", 0.001, 0.5)), "how far it can yield downward").or_number(0.03),
+                Key::new("stiffness_n_per_m", Quantity(within("N/m", 10.0, 1e5)), "stiffness of the spring under it").or_number(1000.0),
+                Key::new("damping_ns_per_m", Number(within("N s/m", 0.0, 1e4)), "damping of the spring").or_number(20.0),
+                Key::new("mass_kg", Quantity(within("kg", 0.001, 50.0)), "mass of the plate, which the spring carries").or_number(0.2),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.3),
             ],
         },
         Variant {
@@ -200,6 +226,7 @@ const OBJECT: Shape = Shape {
                 Key::new("inner_size_m", Vector(within("m", 0.01, 2.0), Exactly(2)), "inner extent along x and y"),
                 Key::new("wall_height_m", Number(within("m", 0.001, 1.0)), "height of its walls"),
                 Key::new("wall_thickness_m", Number(within("m", 0.001, 0.2)), "thickness of walls and floor").or_number(0.005),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.5),
             ],
         },
         Variant { kind: "cabinet", keys: CABINET },
@@ -541,6 +568,24 @@ const CRITERION: Shape = Shape {
                 Key::new("settings", Choice(&["all", "taught", "new", "beyond"]), "in which settings").or(Preset::Text("all")),
                 Key::new("side_told", Flag, "whether the settings are those in which the side is a parameter"),
                 Key::new("min_m", Number(within("m", -100.0, 100.0)), "smallest distance with which each side must be passed"),
+            ],
+        },
+        Variant { kind: "no_collision", keys: &[] },
+        Variant {
+            kind: "expected_force",
+            keys: &[
+                Key::new("axis", Choice(&["x", "y", "z"]), "along which axis of the world"),
+                Key::new("max_n", Number(within("N", 0.0, 500.0)), "largest rms difference of the measured from the expected force"),
+            ],
+        },
+        Variant {
+            kind: "object_at",
+            keys: &[
+                Key::new("object", Reference(Object), "the object"),
+                Key::new("at", Reference(Object), "the object near which it must end; the world's origin without one").optional(),
+                Key::new("offset_m", Vector(within("m", -3.0, 3.0), Exactly(3)), "the place, from there along the world's axes")
+                    .or(Preset::Vector(&[0.0, 0.0, 0.0])),
+                Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest distance from that place"),
             ],
         },
         Variant { kind: "goal_reached", keys: &[Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest distance to the goal")] },

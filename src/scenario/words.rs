@@ -60,7 +60,7 @@ impl To {
         match self {
             Self::Object => "an object".to_owned(),
             Self::ObjectOfKind(kind) => format!("an object of kind `{kind}`"),
-            Self::MovableObject => "an object that can be moved (a ball or a box)".to_owned(),
+            Self::MovableObject => "an object that can be moved (a ball, a box or a cylinder)".to_owned(),
             Self::Parameter => "a parameter".to_owned(),
         }
     }

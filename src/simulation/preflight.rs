@@ -105,7 +105,7 @@ impl Setup {
                 return Err(SimulationError::Scene(format!("{what}: change `handle_lateral_m` or `door_size_m`")));
             }
         }
-        let hanging = objects.iter().filter(|o| o.is_movable()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
+        let hanging = objects.iter().filter(|o| o.is_free()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
         match hanging {
             None => Ok(()),
             Some(object) => {

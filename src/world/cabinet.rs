@@ -102,11 +102,6 @@ impl Cabinet {
         bars.into_iter().map(|(name, distance)| (name, self.bar(distance))).collect()
     }
 
-    /// Height of the middle of the hinge (m, world) when the cabinet stands on a surface at `support_height_m`.
-    pub fn hinge_height_m(&self, support_height_m: f64) -> f64 {
-        support_height_m + self.bottom_height_m + self.door_size_m.y / 2.0
-    }
-
     fn bar(&self, distance_m: f64) -> Point3<f64> {
         Point3::new(-self.handle_standoff_m, -distance_m, 0.0)
     }
@@ -124,7 +119,7 @@ impl Cabinet {
         let of_bar = |(name, middle): (&'static str, Point3<f64>)| {
             let at = |x: f64, z: f64| [x, middle.y, z];
             [
-                part(name, middle.into(), PartShape::Capsule { radius: self.handle_radius_m, half_length: half }),
+                part(name, middle.into(), PartShape::Capsule(self.handle_radius_m, self.handle_length_m)),
                 part(name, at(-self.handle_standoff_m / 2.0, half), PartShape::Box(post)),
                 part(name, at(-self.handle_standoff_m / 2.0, -half), PartShape::Box(post)),
             ]

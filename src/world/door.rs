@@ -5,14 +5,13 @@
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d_f64::prelude::{
-    ColliderBuilder, GenericJointBuilder, JointAxesMask, JointAxis, MotorModel, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder,
-    RigidBodyHandle,
+    GenericJointBuilder, JointAxesMask, JointAxis, MotorModel, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
 };
 
 use super::cabinet::Cabinet;
 use super::parts::{Owner, Part, Parts};
 use super::physics::Layer;
-use super::scene::{ObjectPart, engine_shape};
+use super::scene::{ObjectPart, collider};
 use super::{Object, Parameters, convert};
 
 /// Friction of walls, door and handles.
@@ -108,11 +107,6 @@ fn hang(engine: &mut PhysicsWorld, cabinet: &Cabinet, walls: RigidBodyHandle, do
 fn insert(engine: &mut PhysicsWorld, owned: &Owned, part: &ObjectPart, mass_kg: f64, handle: bool, parts: &mut Parts) {
     let name = format!("{}.{}", owned.object.name, part.name);
     let id = parts.add(Part { name, owner: Owner::Object(owned.index), handle });
-    let collider = ColliderBuilder::new(engine_shape(&part.shape))
-        .position(convert::pose(&part.object_from_part))
-        .friction(SURFACE_FRICTION)
-        .mass(mass_kg)
-        .collision_groups(owned.layer.groups())
-        .user_data(id as u128);
-    engine.insert_collider(collider, Some(owned.body));
+    let built = collider(part).friction(SURFACE_FRICTION).mass(mass_kg).collision_groups(owned.layer.groups()).user_data(id as u128);
+    engine.insert_collider(built, Some(owned.body));
 }

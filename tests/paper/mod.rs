@@ -19,4 +19,5 @@ mod phmm_laws;
 mod pick_and_place;
 mod planar_obstacle_avoidance;
 mod planar_two_sided;
+mod push_object;
 mod tpgmm;

@@ -1,21 +1,21 @@
 //! The objects of the scene.
 
 use nalgebra::Isometry3;
-use rerun::{Boxes3D, Capsules3D, Color, Ellipsoids3D, FillMode};
+use rerun::{Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
 
 use super::convert;
 use super::entity_path::{OBJECT, OBJECT_SHAPE};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{Experiment, StepRecord};
-use crate::world::{Object, ObjectKind, PartShape, initial_pose, object_parts, support_height_m};
+use crate::world::{Object, ObjectKind, PartShape, object_parts, support_height_m};
 
 /// Logs every object: its shapes, and its pose over time.
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
-    let support = support_height_m(&experiment.objects);
+    let support = support_height_m(&experiment.objects, &experiment.parameters);
     for (index, object) in experiment.objects.iter().enumerate() {
         let mut poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.objects.get(index).copied()).collect();
         if poses.len() != records.len() || poses.is_empty() {
-            poses = vec![initial_pose(object, &experiment.parameters, support)];
+            poses = vec![object.pose(&experiment.parameters, support)];
         }
         recorder.poses(OBJECT.of(&[&object.name]), &poses)?;
         log_shapes(recorder, experiment, object)?;
@@ -25,17 +25,20 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
 
 fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> Result<(), Fault> {
     let color = color(object);
-    let (mut boxes, mut balls, mut bars) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut boxes, mut balls, mut cylinders, mut bars) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for part in object_parts(object, &experiment.parameters) {
         let pose = part.object_from_part;
         let place = convert::vector(&pose.translation.vector);
         match part.shape {
             PartShape::Box(half) => boxes.push((place, convert::quaternion(&pose.rotation), convert::vector(&half))),
             PartShape::Ball(radius) => balls.push((place, radius as f32)),
-            PartShape::Capsule { radius, half_length } => {
+            PartShape::Cylinder(radius, height) => {
+                cylinders.push((place, convert::quaternion(&pose.rotation), radius as f32, height as f32));
+            }
+            PartShape::Capsule(radius, height) => {
                 // A capsule of the viewer begins at its origin.
-                let foot = pose * nalgebra::Point3::new(0.0, 0.0, -half_length);
-                bars.push((convert::vector(&foot.coords), convert::quaternion(&pose.rotation), radius as f32, 2.0 * half_length as f32));
+                let foot = pose * nalgebra::Point3::new(0.0, 0.0, -height / 2.0);
+                bars.push((convert::vector(&foot.coords), convert::quaternion(&pose.rotation), radius as f32, height as f32));
             }
         }
     }
@@ -51,6 +54,14 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
         recorder.always(OBJECT_SHAPE.of(&[&object.name, "balls"]), &solid)?;
+    }
+    if !cylinders.is_empty() {
+        let solid = Cylinders3D::from_lengths_and_radii(cylinders.iter().map(|c| c.3), cylinders.iter().map(|c| c.2))
+            .with_centers(cylinders.iter().map(|c| c.0))
+            .with_quaternions(cylinders.iter().map(|c| c.1))
+            .with_colors([color])
+            .with_fill_mode(FillMode::Solid);
+        recorder.always(OBJECT_SHAPE.of(&[&object.name, "cylinders"]), &solid)?;
     }
     if !bars.is_empty() {
         let solid = Capsules3D::from_lengths_and_radii(bars.iter().map(|b| b.3), bars.iter().map(|b| b.2))
@@ -70,6 +81,8 @@ fn color(object: &Object) -> Color {
         ObjectKind::UBlock { .. } => Color::from_rgb(128, 146, 170),
         ObjectKind::Ball { .. } => Color::from_rgb(250, 214, 40),
         ObjectKind::Basket { .. } => Color::from_rgb(140, 100, 66),
+        ObjectKind::Cylinder { .. } => Color::from_rgb(236, 146, 62),
+        ObjectKind::SpringPlate { .. } => Color::from_rgb(120, 170, 120),
         ObjectKind::Box { .. } => Color::from_rgb(214, 108, 70),
         ObjectKind::Cabinet(_) => Color::from_rgb(172, 152, 122),
     }
