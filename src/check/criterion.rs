@@ -41,8 +41,6 @@ pub enum CriterionKind {
     NoContact {
         /// The objects' names.
         objects: Vec<String>,
-        /// Whether contacts that the scene allows do not count: fingers may touch what is there to be held.
-        except_allowed: bool,
     },
     /// The door of a cabinet is open at the end. Value: its opening (rad).
     DoorOpen {

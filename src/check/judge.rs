@@ -56,7 +56,7 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         CriterionKind::ObjectInContainer { object, container, speed_max_m_per_s } => {
             (object_in_container(outcome, experiment, object, container, *speed_max_m_per_s), true)
         }
-        CriterionKind::NoContact { objects, except_allowed } => (no_contact(outcome, experiment, objects, *except_allowed), true),
+        CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
         CriterionKind::DoorOpen { object, min_rad } => (door::open(outcome, experiment, object, *min_rad), false),
         CriterionKind::ArcFollowed { object, of, max_m } => (door::arc_followed(steps, experiment, object, *of, *max_m), true),
         CriterionKind::HookKept { object, max_m } => (door::hook_kept(steps, experiment, object, *max_m), true),
@@ -109,9 +109,8 @@ fn belongs(name: &str, objects: &[String]) -> bool {
     objects.iter().any(|object| name == object || name.strip_prefix(object.as_str()).is_some_and(|rest| rest.starts_with('.')))
 }
 
-fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String], except_allowed: bool) -> Answer {
-    let counts = |c: &&ContactEpisode| !standing(c, experiment) && !(except_allowed && c.allowed);
-    let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects)).filter(counts);
+fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String]) -> Answer {
+    let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects) && !standing(c, experiment));
     let first = touching().map(|c| c.first_time_s).fold(None, |first: Option<f64>, t| Some(first.map_or(t, |f| f.min(t))));
     Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
 }

@@ -37,7 +37,7 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
             container: table.text("container").to_owned(),
             speed_max_m_per_s: table.number("speed_max_m_per_s"),
         },
-        "no_contact" => CriterionKind::NoContact { objects: table.texts("objects"), except_allowed: table.flag("except_allowed") },
+        "no_contact" => CriterionKind::NoContact { objects: table.texts("objects") },
         "door_open" => CriterionKind::DoorOpen { object: object(), min_rad: table.number("min_rad") },
         "arc_followed" => {
             let of = if table.text("of") == "reference" { Followed::Reference } else { Followed::Tool };

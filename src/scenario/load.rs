@@ -281,7 +281,7 @@ mod tests {
         "#;
         let criteria = [
             "object_in_container\"\nobject = \"toy\"\ncontainer = \"basket\"",
-            "no_contact\"\nobjects = [\"block\"]\nexcept_allowed = true",
+            "no_contact\"\nobjects = [\"block\"]",
             "door_open\"\nobject = \"cabinet\"\nmin_rad = 0.9",
             "arc_followed\"\nobject = \"cabinet\"\nof = \"reference\"\nmax_m = 0.01",
             "hook_kept\"\nobject = \"cabinet\"\nmax_m = 0.01",

@@ -501,14 +501,7 @@ const CRITERION: Shape = Shape {
                 Key::new("speed_max_m_per_s", Number(within("m/s", 0.0, 10.0)), "largest speed that counts as rest").or_number(0.02),
             ],
         },
-        Variant {
-            kind: "no_contact",
-            keys: &[
-                Key::new("objects", References(Object), "what must not be touched"),
-                Key::new("except_allowed", Flag, "whether contacts that the scene allows, such as fingers with a handle, do not count")
-                    .or(Preset::Flag(false)),
-            ],
-        },
+        Variant { kind: "no_contact", keys: &[Key::new("objects", References(Object), "what must not be touched")] },
         Variant {
             kind: "door_open",
             keys: &[

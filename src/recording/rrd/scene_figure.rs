@@ -7,7 +7,7 @@ use super::convert;
 use super::entity_path::{OBJECT, OBJECT_SHAPE};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{Experiment, StepRecord};
-use crate::world::{Object, ObjectKind, PartShape, object_parts, support_height_m};
+use crate::world::{Object, ObjectKind, ObjectPart, PartShape, fixed_parts, object_parts, support_height_m};
 
 /// Logs every object: its shapes, and its pose over time.
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
@@ -18,15 +18,20 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
             poses = vec![object.pose(&experiment.parameters, support)];
         }
         recorder.poses(OBJECT.of(&[&object.name]), &poses)?;
-        log_shapes(recorder, experiment, object)?;
+        log_shapes(recorder, &object.name, color(object), &object_parts(object, &experiment.parameters))?;
+        let fixed = fixed_parts(object);
+        if !fixed.is_empty() {
+            let name = format!("{}_walls", object.name);
+            recorder.poses(OBJECT.of(&[&name]), &[object.pose(&experiment.parameters, support)])?;
+            log_shapes(recorder, &name, color(object), &fixed)?;
+        }
     }
     Ok(())
 }
 
-fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> Result<(), Fault> {
-    let color = color(object);
+fn log_shapes(recorder: &Recorder, name: &str, color: Color, parts: &[ObjectPart]) -> Result<(), Fault> {
     let (mut boxes, mut balls, mut cylinders, mut bars) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for part in object_parts(object, &experiment.parameters) {
+    for part in parts {
         let pose = part.object_from_part;
         let place = convert::vector(&pose.translation.vector);
         match part.shape {
@@ -47,13 +52,13 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_quaternions(boxes.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "boxes"]), &solid)?;
+        recorder.always(OBJECT_SHAPE.of(&[name, "boxes"]), &solid)?;
     }
     if !balls.is_empty() {
         let solid = Ellipsoids3D::from_centers_and_radii(balls.iter().map(|b| b.0), balls.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "balls"]), &solid)?;
+        recorder.always(OBJECT_SHAPE.of(&[name, "balls"]), &solid)?;
     }
     if !cylinders.is_empty() {
         let solid = Cylinders3D::from_lengths_and_radii(cylinders.iter().map(|c| c.3), cylinders.iter().map(|c| c.2))
@@ -61,7 +66,7 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_quaternions(cylinders.iter().map(|c| c.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "cylinders"]), &solid)?;
+        recorder.always(OBJECT_SHAPE.of(&[name, "cylinders"]), &solid)?;
     }
     if !bars.is_empty() {
         let solid = Capsules3D::from_lengths_and_radii(bars.iter().map(|b| b.3), bars.iter().map(|b| b.2))
@@ -69,7 +74,7 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_quaternions(bars.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "bars"]), &solid)?;
+        recorder.always(OBJECT_SHAPE.of(&[name, "bars"]), &solid)?;
     }
     Ok(())
 }
