@@ -97,10 +97,11 @@ fn hang(engine: &mut PhysicsWorld, cabinet: &Cabinet, walls: RigidBodyHandle, do
     }
     let (multibody, _) = multibody_joints.get_mut(joint)?;
     multibody.set_self_contacts_enabled(false);
-    multibody.damping_mut()[0] = cabinet.damping_nms_per_rad;
-    multibody.frictions_mut()[0] = cabinet.friction_nm;
     multibody.forward_kinematics(bodies, true);
     multibody.update_rigid_bodies(bodies, true);
+    // Only now is the hinge the first degree of freedom: until its root is known to be fixed, that has six of its own.
+    multibody.damping_mut()[0] = cabinet.damping_nms_per_rad;
+    multibody.frictions_mut()[0] = cabinet.friction_nm;
     Some(Door { body: door, joint, seal_nm_per_rad: cabinet.seal_nm_per_rad })
 }
 
