@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::learning_args::{Generate, Inspect, Learn};
+use super::sweep_args::{MergeArguments, SweepArguments};
 
 /// A physics testbed for Compliant Parametric Dynamic Movement Primitives.
 ///
@@ -34,6 +35,12 @@ pub(super) enum Command {
     Generate(Generate),
     /// Say what a skill, a dataset, a run folder or a robot's file holds
     Inspect(Inspect),
+    /// Run a scenario again and again with other values of its keys: one table, one row per run
+    Sweep(SweepArguments),
+    /// Run a run again and compare its state hashes; with --set, say where another run parts from it
+    Replay(RunFolder),
+    /// Join the tables of a sweep's shards into one (--out)
+    Merge(MergeArguments),
     /// Draw the figures of a run again, from what its folder holds
     Figures(RunFolder),
     /// List the scenarios of a folder, with what each shows
@@ -67,9 +74,13 @@ pub(super) struct RunFolder {
 /// What is checked, and where the verdict goes.
 #[derive(Debug, Args)]
 pub(super) struct Check {
-    /// Scenario files, folders of them, or patterns with `*` and `?` in the file name
+    /// Scenario files, folders of them, or patterns with `*` and `?` in the file name; folders of stored runs; files of samples (CSV or
+    /// Parquet with `time_s` and joint angles or tool poses)
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
+    /// Judge files of samples in the scene of this scenario
+    #[arg(long, value_name = "SCENARIO")]
+    pub scene: Option<PathBuf>,
     /// Write the verdict as JUnit to this file, whatever else is printed
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
@@ -143,7 +154,7 @@ pub(super) struct Global {
     #[arg(long, global = true, env = "CPDMP_ASSET_ROOT", value_name = "DIR")]
     pub asset_root: Vec<PathBuf>,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the
-    /// samples to this file; figures to this folder
+    /// samples to this file; figures to this folder; the sweep to this folder instead of sweeps/<scenario>; the joined table to this file
     #[arg(long, global = true, env = "CPDMP_OUT", value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Use this many threads; the result does not depend on it
@@ -152,7 +163,7 @@ pub(super) struct Global {
     /// Print results for people, as JSON (one document per line), or of `check` as JUnit or as GitHub annotations
     #[arg(long, global = true, env = "CPDMP_FORMAT", value_enum, default_value = "human")]
     pub format: Printed,
-    /// Tell more: also what is odd about the robot's file
+    /// Tell more: also what is odd about the robot's file, and which contacts are allowed why
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
     /// Tell nothing but results and errors

@@ -53,6 +53,16 @@ impl ArmModel {
         self.state.tip_pose()
     }
 
+    /// The joints, from the shoulder.
+    pub fn chain_joints(&self) -> impl Iterator<Item = &Joint> {
+        self.chain.joints()
+    }
+
+    /// Finds joint angles for `base_from_tool`, starting at those in `q`, which holds the best posture met afterwards.
+    pub fn reach_from(&mut self, base_from_tool: &Isometry3<f64>, q: &mut [f64]) -> IkOutcome {
+        self.inverse.solve(&self.chain, base_from_tool, &self.rest_rad, q, &mut self.state)
+    }
+
     /// The Jacobian at the tool point (6 x n, base axes) at the angles of the last [`Self::tool_pose`].
     pub fn jacobian(&self) -> &Matrix6xX<f64> {
         self.state.jacobian()

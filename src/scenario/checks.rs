@@ -15,6 +15,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     let mut faults = Vec::new();
     unique_names(scenario, "object", &mut faults);
     unique_names(scenario, "criterion", &mut faults);
+    unique_names(scenario, "allowed_contact", &mut faults);
     references(scenario, &mut faults);
     square_cabinets(scenario, &mut faults);
     planar(scenario, &mut faults);

@@ -96,13 +96,19 @@ impl Writer {
             Kind::Windows(measure) => json!({ "type": "array", "items": list(number(measure), Length::Exactly(2)) }),
             Kind::Text | Kind::Path(_) | Kind::Tag => json!({ "type": "string" }),
             Kind::Name | Kind::Reference(_) => name(),
-            Kind::Folders => json!({ "type": "array", "items": { "type": "string" } }),
+            Kind::Folders | Kind::Texts => json!({ "type": "array", "items": { "type": "string" } }),
             Kind::Choice(choices) => json!({ "enum": choices }),
             Kind::References(_) => json!({ "type": "array", "items": name() }),
             Kind::Section(shape) => self.table(shape),
             Kind::List(shape) => json!({ "type": "array", "items": self.table(shape) }),
             Kind::Numbers => json!({ "type": "object", "additionalProperties": { "type": "number" } }),
             Kind::Grid => json!({ "type": "object", "additionalProperties": { "type": "array", "items": { "type": "number" } } }),
+            Kind::Values => json!({ "type": "array" }),
+            // A dotted key without quotes is a table in a table.
+            Kind::Ranges => {
+                let pair = list(number(&Measure::ANY), Length::Exactly(2));
+                json!({ "type": "object", "additionalProperties": { "anyOf": [pair, { "type": "object" }] } })
+            }
         }
     }
 }

@@ -20,7 +20,7 @@ use super::schema::{SCENARIO, SCHEMA_VERSION};
 use super::source::Sources;
 use super::tree::{Node, Value};
 use super::work::Work;
-use crate::check::CriterionSpec;
+use crate::check::{AllowedContact, CriterionSpec};
 
 /// A scenario file, checked: everything in it makes sense on its own and together.
 #[derive(Clone, Debug)]
@@ -29,6 +29,8 @@ pub struct Scenario {
     pub work: Work,
     /// What the run must show.
     pub criteria: Vec<CriterionSpec>,
+    /// Contacts that it allows beyond those that every scene allows.
+    pub allowed_contacts: Vec<AllowedContact>,
     /// Where its parts were typed.
     pub places: Places,
     /// What is written to the run folder.
@@ -52,6 +54,8 @@ pub struct RecordingPlan {
     pub steps: bool,
     /// The dataset that was learned from.
     pub demonstrations: bool,
+    /// Steps between two hashes of the states; 0 keeps none.
+    pub hash_every_steps: u64,
 }
 
 /// What the user says besides the file.
@@ -72,19 +76,28 @@ impl Scenario {
     pub fn load(path: &Path, options: &LoadOptions) -> Result<Self, InvalidScenario> {
         let mut sources = Sources::default();
         let mut faults = Vec::new();
-        let scenario = read(path, options, &mut sources, &mut faults);
-        let diagnostics = diagnose(faults, &sources);
-        match scenario {
-            Some(filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => Ok(Self {
-                work: work(&filled),
-                criteria: build_criteria::criteria(&filled),
-                places: Places::of(&filled, &sources),
-                recording: build::recording(&filled),
-                description: filled.text("description").to_owned(),
-                resolved: resolved::write(&check_planar::without_arm(filled)),
-                files: sources.files(),
-                warnings: diagnostics,
-            }),
+        let filled = layered(path, options, &mut sources, &mut faults).map(|(tree, roots)| fill(tree, &sources, &roots, &mut faults));
+        Self::of(filled, faults, &sources)
+    }
+
+    /// The scenario of a filled tree, unless there is none or something is wrong with it. What it varies in sweeps is left aside.
+    pub(super) fn of(filled: Option<Node>, faults: Vec<Fault>, sources: &Sources) -> Result<Self, InvalidScenario> {
+        let diagnostics = diagnose(faults, sources);
+        match filled {
+            Some(mut filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => {
+                filled.take("sweep");
+                Ok(Self {
+                    work: work(&filled),
+                    criteria: build_criteria::criteria(&filled),
+                    allowed_contacts: build_criteria::allowed_contacts(&filled),
+                    places: Places::of(&filled, sources),
+                    recording: build::recording(&filled),
+                    description: filled.text("description").to_owned(),
+                    resolved: resolved::write(&check_planar::without_arm(filled)),
+                    files: sources.files(),
+                    warnings: diagnostics,
+                })
+            }
             _ => Err(InvalidScenario(diagnostics)),
         }
     }
@@ -97,8 +110,8 @@ fn work(filled: &Node) -> Work {
     }
 }
 
-/// The filled tree, unless its text or its version leave nothing to look at.
-fn read(path: &Path, options: &LoadOptions, sources: &mut Sources, faults: &mut Vec<Fault>) -> Option<Node> {
+/// The tree of all layers, and the folders whose files it may use, unless its text or its version leave nothing to look at.
+pub(super) fn layered(path: &Path, options: &LoadOptions, sources: &mut Sources, faults: &mut Vec<Fault>) -> Option<(Node, Roots)> {
     let directory = path.parent().unwrap_or(Path::new(""));
     let roots = Roots::new(directory, &options.asset_roots);
     let mut tree = layer::load(path, &roots, sources, faults)?;
@@ -120,10 +133,15 @@ fn read(path: &Path, options: &LoadOptions, sources: &mut Sources, faults: &mut 
         *faults = vec![fault];
         return None;
     }
+    Some((tree, roots))
+}
+
+/// The tree with every default filled in, held against the table of keys and checked as a whole.
+pub(super) fn fill(mut tree: Node, sources: &Sources, roots: &Roots, faults: &mut Vec<Fault>) -> Node {
     only_latest(&mut tree, ["demonstrations", "teaching"], sources);
-    let filled = Conform { sources, roots: &roots, faults }.table(tree, &SCENARIO, "");
+    let filled = Conform { sources, roots, faults }.table(tree, &SCENARIO, "");
     faults.extend(checks::check(&filled));
-    Some(filled)
+    filled
 }
 
 /// Of two keys that exclude each other, the one that was typed in a layer above the other's stays.
@@ -278,6 +296,10 @@ mod tests {
             kind = "push"
             force_n = [10, 0, 0]
             windows_s = [[1, 2], [3, 4.5]]
+            [[allowed_contact]]
+            name = "leaning"
+            a = "left_hand"
+            b = "table"
         "#;
         let criteria = [
             "object_in_container\"\nobject = \"toy\"\ncontainer = \"basket\"",
@@ -287,6 +309,7 @@ mod tests {
             "hook_kept\"\nobject = \"cabinet\"\nmax_m = 0.01",
             "tool_force\"\nmax_n = 20",
             "clearance\"\nobjects = [\"block\"]\nmin_m = 0.005",
+            "clearance\"\nobjects = [\"table\"]\nlinks = [\"left_hand\"]\nmin_m = 0.01",
             "no_collision\"",
             "expected_force\"\naxis = \"y\"\nmax_n = 0.5",
             "object_at\"\nobject = \"toy\"\nat = \"basket\"\noffset_m = [0, 0, 0.1]\nmax_m = 0.02",
@@ -303,6 +326,8 @@ mod tests {
         assert_eq!(again.resolved, typed.resolved);
         assert_eq!(format!("{:?}", again.work), format!("{:?}", typed.work));
         assert_eq!(again.criteria, typed.criteria);
-        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (16, 8));
+        assert_eq!(again.allowed_contacts, typed.allowed_contacts);
+        assert_eq!(typed.allowed_contacts.len(), 1);
+        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (17, 8));
     }
 }

@@ -2,12 +2,13 @@
 
 use super::key::Kind::{
     Choice, Count, CountOrWord, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References,
-    Section, Tag, Text, Vector, Windows,
+    Section, Tag, Text, Texts, Vector, Windows,
 };
 use super::key::Length::{AtLeast, Exactly};
 use super::key::To::{MovableObject, Object, ObjectOfKind, Parameter};
 use super::key::{Key, PathTo, Preset, Shape, Variant};
 use super::measure::{above, within};
+use super::schema_sweep::SWEEP;
 
 /// The version of the language that this program reads and writes.
 pub(super) const SCHEMA_VERSION: i64 = 1;
@@ -31,7 +32,9 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
     Key::new("execution", Section(EXECUTION), "how the skill is executed").or_empty(),
     Key::new("human", Section(HUMAN), "the virtual human").or_empty(),
     Key::new("recording", Section(RECORDING), "what is written to the run folder").or_empty(),
+    Key::new("allowed_contact", List(ALLOWED_CONTACT), "contacts that are no collisions").or_empty(),
     Key::new("criterion", List(CRITERION), "what the run must show").or_empty(),
+    Key::new("sweep", List(SWEEP), "what `cpdmp sweep` varies from run to run; a single run leaves it aside").or_empty(),
 ]);
 
 /// A file with nothing but the `[learning]` table.
@@ -176,7 +179,7 @@ const OBJECT: Shape = Shape {
                 Key::new("aperture_m", Number(within("m", 0.01, 2.0)), "free width between the posts, along x"),
                 Key::new("post_height_m", Number(within("m", 0.005, 1.0)), "height of the posts above the base"),
                 Key::new("post_width_m", Number(within("m", 0.001, 1.0)), "width of each post, along x").or_number(0.03),
-                Key::new("thickness_m", Number(within("m", 0.001, 1.0)), "extent along y").or_number(0.05),
+                Key::new("thickness_m", Number(within("m", 0.0001, 1.0)), "extent along y").or_number(0.05),
                 Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.5),
             ],
         },
@@ -481,10 +484,18 @@ const RECORDING: Shape = Shape::plain(&[
     Key::new("rrd", Flag, "recording.rrd, for the rerun viewer").or(Preset::Flag(true)),
     Key::new("steps", Flag, "steps.parquet, one row per logged step; paths.parquet of a planar experiment").or(Preset::Flag(true)),
     Key::new("demonstrations", Flag, "demonstrations/, the dataset that was learned from").or(Preset::Flag(true)),
+    Key::new("hash_every_steps", Count(0, 1_000_000), "state_hashes.parquet, for `cpdmp replay`: steps between two hashes; 0 for none")
+        .or(Preset::Count(100)),
 ]);
 
 /// What makes movements in planar experiments.
 const METHODS: [&str; 5] = ["cpdmp", "cpdmp_product", "cpdmp_chain", "lwr_dmp", "tp_gmm"];
+
+const ALLOWED_CONTACT: Shape = Shape::plain(&[
+    Key::new("name", Name, "its name in reports"),
+    Key::new("a", Text, "a link of the robot or an object, with all its parts"),
+    Key::new("b", Text, "the other one"),
+]);
 
 const CRITERION: Shape = Shape {
     keys: &[
@@ -535,7 +546,8 @@ const CRITERION: Shape = Shape {
         Variant {
             kind: "clearance",
             keys: &[
-                Key::new("objects", References(ObjectOfKind("u_block")), "what must be kept away from"),
+                Key::new("objects", References(Object), "what must be kept away from"),
+                Key::new("links", Texts, "links of the robot, or objects in the gripper, whose distance counts; all without it").or_empty(),
                 Key::new("min_m", Number(within("m", 0.0, 1.0)), "smallest distance"),
             ],
         },
@@ -651,7 +663,7 @@ mod tests {
                 (Count(min, max) | CountOrWord(min, max, _), Preset::Count(count)) => (min..=max).contains(&count),
                 (Choice(choices), Preset::Text(text)) => choices.contains(&text),
                 (Flag, Preset::Flag(_)) | (Text | Path(_) | Tag, Preset::Text(_)) => true,
-                (Numbers | Grid | Section(_) | List(_) | References(_) | Folders, Preset::Empty) => true,
+                (Numbers | Grid | Section(_) | List(_) | References(_) | Texts | Folders, Preset::Empty) => true,
                 (_, preset) => matches!(preset, Preset::Required | Preset::Optional),
             };
             assert!(suits, "{key:?}");

@@ -19,6 +19,7 @@ impl Kind {
             Self::Vector(measure, length) => format!("{}{}", length.describe(), in_range(measure)),
             Self::Windows(measure) => format!("a list of [start, end]{}", in_range(measure)),
             Self::Text => "text".to_owned(),
+            Self::Texts => "a list of texts".to_owned(),
             Self::Name => "a name of letters, digits, `_` and `-`, at most 64".to_owned(),
             Self::Path(PathTo::Robot) => "a URDF file, or \"builtin:baxter\"".to_owned(),
             Self::Path(PathTo::Dataset) => "the folder of a dataset".to_owned(),
@@ -32,6 +33,8 @@ impl Kind {
             Self::List(_) => "a list of tables".to_owned(),
             Self::Numbers => "a table of names, each with a number".to_owned(),
             Self::Grid => "a table of parameter names, each with a list of numbers".to_owned(),
+            Self::Values => "a list of values".to_owned(),
+            Self::Ranges => "a table of keys, each with [min, max]".to_owned(),
         }
     }
 }

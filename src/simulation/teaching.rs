@@ -11,7 +11,7 @@ use super::{SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
 use crate::demonstration::{Demonstration, Trajectory};
 use crate::math;
-use crate::world::Parameters;
+use crate::world::{Parameters, StateTrace};
 
 /// One demonstration as it was led, before its wrench is known.
 #[derive(Clone, Debug)]
@@ -30,6 +30,8 @@ pub(super) struct Lesson {
     pub joints: Vec<Vec<f64>>,
     /// Hash of the world's states.
     pub state_hash: u64,
+    /// What was kept of them.
+    pub trace: StateTrace,
     /// Engine steps.
     pub steps: u64,
 }
@@ -64,6 +66,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         idle: hold.as_mut(),
         step_s: experiment.physics.step_s,
     };
+    run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("teach", number), steps + 1);
     run.run(
         steps + 1,
         |controller, world| controller.gripper = path.at(world.time_s()).gripper,
@@ -82,6 +85,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         path: recorder.path,
         joints: recorder.joints,
         state_hash: world.state_hash(),
+        trace: world.take_trace(),
         steps: steps + 1,
     })
 }

@@ -1,6 +1,7 @@
 //! The real binary, as a person or a CI job calls it.
 
 mod check;
+mod check_motion;
 mod commands;
 mod generate;
 mod inspect;
@@ -9,7 +10,9 @@ mod overrides;
 mod planar_run;
 mod program;
 mod real_run;
+mod replay;
 mod run_folder;
 mod schemas;
+mod sweep;
 
 pub use program::{Folder, GOOD, Said, cpdmp};

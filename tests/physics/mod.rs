@@ -1,6 +1,8 @@
 //! The robot's mathematics and the simulated world, each against independent truth.
 
 mod closed_forms;
+mod collisions;
+pub mod collisions_in_engine;
 mod joint_torques;
 mod objects;
 mod robot_arm;
@@ -11,4 +13,5 @@ mod robot_meshes;
 mod robot_official;
 mod robot_urdf;
 mod robot_wrench;
+mod state_trace;
 mod wrench;
