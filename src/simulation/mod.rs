@@ -6,6 +6,7 @@ mod error;
 mod execution;
 mod experiment;
 mod guide_path;
+mod lesson_record;
 mod outcome;
 mod person;
 mod preflight;
@@ -19,6 +20,7 @@ mod teaching;
 
 pub use error::SimulationError;
 pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings, TeachingPlan, Waypoint};
+pub use lesson_record::{LOOKS_HZ, LessonLook, LessonRecord};
 pub use outcome::{AppliedForce, FinalObject, PhaseSummary, RunOutcome};
 pub use progress::{Progress, Silent};
 pub use run::{History, demonstrate, perform, run};

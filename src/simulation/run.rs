@@ -7,7 +7,7 @@ use super::execution::execute;
 use super::replay::replay;
 use super::setup::Setup;
 use super::teaching::{Lesson, demonstration, settings_of, teach};
-use super::{DemonstrationSource, Experiment, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan};
+use super::{DemonstrationSource, Experiment, LessonRecord, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan};
 use crate::demonstration::{Dataset, Demonstration, ParameterSource};
 use crate::learning::{self, Learned, Skill};
 
@@ -67,6 +67,7 @@ pub fn perform(
         robot: setup.robot.clone(),
         robot_warnings: setup.warnings.clone(),
         dataset: dataset.clone(),
+        lessons: std::mem::take(&mut history.lessons),
         skill: learned.skill.clone(),
         learning: report,
         plan,
@@ -118,6 +119,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
         })
         .collect::<Result<_, SimulationError>>()?;
     history.hashes.extend(replays.iter().map(|(_, hash, _)| *hash));
+    history.lessons = lessons.into_iter().map(seen).collect();
     history.close("replay", replays.iter().map(|(_, _, steps)| *steps).sum(), started, progress);
     Ok(Dataset {
         motion: ["x_m", "y_m", "z_m"].map(String::from).to_vec(),
@@ -127,11 +129,16 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     })
 }
 
-/// What has been simulated so far: the phases, and the hashes of all worlds in a fixed order.
+fn seen(lesson: Lesson) -> LessonRecord {
+    LessonRecord { name: lesson.name, parameters: lesson.parameters, looks: lesson.looks }
+}
+
+/// What has been simulated so far: the phases, the hashes of all worlds in a fixed order, and what the lessons looked like.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     phases: Vec<PhaseSummary>,
     hashes: Vec<u64>,
+    lessons: Vec<LessonRecord>,
 }
 
 impl History {

@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, Isometry3};
 use super::guide_path::GuidePath;
 use super::person::Teacher;
 use super::setup::Setup;
-use super::step_loop::StepLoop;
-use super::{SimulationError, TeachingPlan};
+use super::step_loop::{Published, StepLoop};
+use super::{LOOKS_HZ, LessonLook, SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
 use crate::demonstration::{Demonstration, Trajectory};
 use crate::math;
@@ -25,6 +25,8 @@ pub(super) struct Lesson {
     pub start_posture: Vec<f64>,
     /// What the encoders saw.
     pub path: ToolPath,
+    /// What somebody who stood beside it saw.
+    pub looks: Vec<LessonLook>,
     /// Hash of the world's states.
     pub state_hash: u64,
     /// Engine steps.
@@ -52,6 +54,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
     let steps = setup.steps(plan.duration_s);
     let every = setup.steps(1.0 / plan.record_rate_hz).max(1);
     let mut recorder = PathRecorder { arm: setup.arm(), path: ToolPath { times_s: Vec::new(), poses: Vec::new(), gripper: Vec::new() } };
+    let (mut looks, look_every) = (Vec::new(), setup.steps(1.0 / LOOKS_HZ).max(1));
     let mut hold = setup.hold();
     let mut run = StepLoop {
         world: &mut world,
@@ -68,6 +71,9 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
             if now.world.step().is_multiple_of(every) {
                 recorder.record(now.observation.time_s, &now.observation.position, now.command.gripper);
             }
+            if now.world.step().is_multiple_of(look_every) {
+                looks.push(look(now, experiment.objects.len()));
+            }
         },
     )?;
     let name = demonstration_name(plan, parameters);
@@ -77,9 +83,23 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         parameters: parameters.clone(),
         start_posture,
         path: recorder.path,
+        looks,
         state_hash: world.state_hash(),
         steps: steps + 1,
     })
+}
+
+fn look(now: &Published<ZeroGravity>, objects: usize) -> LessonLook {
+    let mut bodies = Vec::new();
+    now.world.robot_poses(&mut bodies);
+    LessonLook {
+        time_s: now.world.time_s(),
+        tool: now.world.tool_pose().translation.vector,
+        gripper_command: now.command.gripper,
+        human: now.hand,
+        bodies,
+        objects: (0..objects).map(|index| now.world.object_pose(index)).collect(),
+    }
 }
 
 /// Joins what was led with the wrench (6 numbers per sample) measured when it was replayed.

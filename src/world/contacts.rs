@@ -1,7 +1,9 @@
 //! Keeps book of everything that touches, at every step.
 
-use rapier3d_f64::prelude::PhysicsWorld;
+use nalgebra::Point3;
+use rapier3d_f64::prelude::{ContactPair, PhysicsWorld};
 
+use super::convert;
 use super::parts::{Owner, Parts};
 
 /// All contacts of one pair of parts during a run.
@@ -21,6 +23,8 @@ pub struct ContactEpisode {
     pub max_depth_m: f64,
     /// Largest normal force (N).
     pub max_force_n: f64,
+    /// Where they touched when that force was largest (m, world).
+    pub point: Point3<f64>,
     pair: (usize, usize),
 }
 
@@ -65,6 +69,7 @@ impl ContactBook {
                         last_time_s: time_s,
                         max_depth_m: 0.0,
                         max_force_n: 0.0,
+                        point: Point3::origin(),
                         pair: key,
                     });
                     let last = self.episodes.len() - 1;
@@ -73,9 +78,20 @@ impl ContactBook {
             };
             episode.last_time_s = time_s;
             episode.max_depth_m = episode.max_depth_m.max(depth.max(0.0));
-            episode.max_force_n = episode.max_force_n.max(force);
+            if force > episode.max_force_n {
+                episode.max_force_n = force;
+                episode.point = place(engine, pair).unwrap_or(episode.point);
+            }
         }
     }
+}
+
+/// The place of a pair's deepest contact (m, world).
+fn place(engine: &PhysicsWorld, pair: &ContactPair) -> Option<Point3<f64>> {
+    let (manifold, contact) = pair.find_deepest_contact()?;
+    let collider = engine.colliders.get(pair.collider1)?;
+    let in_collider = manifold.subshape_pos1().map_or(contact.local_p1, |shape| shape * contact.local_p1);
+    Some(convert::point_back(collider.position() * in_collider))
 }
 
 fn rank(owner: Owner, movable: &[bool]) -> usize {
