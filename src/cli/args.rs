@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::learning_args::{Generate, Inspect, Learn};
+use super::view::View;
+use super::viewer::Viewer;
 
 /// A physics testbed for Compliant Parametric Dynamic Movement Primitives.
 ///
@@ -23,7 +25,7 @@ pub(super) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Teach, learn, execute, judge and record: one run folder per scenario
-    Run(Paths),
+    Run(Run),
     /// Run without recording or display and judge: what a continuous integration calls
     Check(Check),
     /// Check scenarios and what they need, without simulating: all faults at once
@@ -34,12 +36,26 @@ pub(super) enum Command {
     Generate(Generate),
     /// Say what a skill, a dataset, a run folder or a robot's file holds
     Inspect(Inspect),
+    /// Show the recording of a run in the rerun viewer
+    View(View),
     /// Draw the figures of a run again, from what its folder holds
     Figures(RunFolder),
     /// List the scenarios of a folder, with what each shows
     List(Folders),
     /// Explain exit codes and the codes of faults
     Explain(Code),
+}
+
+/// What is run, and who watches.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    #[command(flatten)]
+    pub scenarios: Paths,
+    /// Show the recording in the rerun viewer as soon as it is there; a viewer that is missing changes nothing about the run
+    #[arg(long, env = "CPDMP_VIEWER")]
+    pub viewer: bool,
+    #[command(flatten)]
+    pub with: Viewer,
 }
 
 /// Scenarios.

@@ -24,6 +24,8 @@ mod run;
 mod select;
 mod terminal;
 mod validate;
+mod view;
+mod viewer;
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -55,12 +57,13 @@ fn dispatch(cli: &Cli) -> Outcome {
         _ = rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global();
     }
     let outcome = match &cli.command {
-        Command::Run(arguments) => run::run(&arguments.paths, &cli.global, &terminal),
+        Command::Run(arguments) => run::run(arguments, &cli.global, &terminal),
         Command::Check(arguments) => check::check(arguments, &cli.global, &terminal),
         Command::Validate(arguments) => validate::validate(&arguments.paths, &cli.global, &terminal),
         Command::Learn(arguments) => learn::learn(arguments, &cli.global, &terminal),
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
+        Command::View(arguments) => view::view(arguments, &terminal),
         Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
         Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),

@@ -10,5 +10,6 @@ mod planar_run;
 mod program;
 mod real_run;
 mod run_folder;
+mod view;
 
 pub use program::{Folder, GOOD, Said, cpdmp};
