@@ -4,8 +4,11 @@ use std::path::Path;
 
 use super::figure_files::draw;
 use crate::figure::{Figure, planar_forcing, planar_paths, transitions};
-use crate::planar::{Guidance, Method, Movement, PlanarOutcome, Transitions};
+use crate::planar::{Guidance, LearnedSkill, Method, Movement, PlanarOutcome, Transitions};
+#[cfg(feature = "rerun")]
+use crate::recording::write_planar_recording;
 use crate::recording::{LoggedPath, write_path_log};
+use crate::report::write_file;
 use crate::scenario::{PlanarRun, RecordingPlan};
 
 /// Writes everything into the folder. Returns what could not be written.
@@ -16,11 +19,30 @@ pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, 
         let written = written.and_then(|dataset| dataset.write(&folder.join("demonstrations")).map_err(|error| error.to_string()));
         failures.extend(written.err());
     }
+    failures.extend(skills(left, folder));
     if plan.steps {
         failures.extend(write_path_log(&folder.join("paths.parquet"), &paths(left)).err().map(|error| error.to_string()));
     }
+    #[cfg(feature = "rerun")]
+    if plan.rrd {
+        let written = write_planar_recording(&folder.join("recording.rrd"), &run.name, run.seed, left);
+        failures.extend(written.err().map(|error| error.to_string()));
+    }
     failures.extend(draw(&figures(left), &folder.join("figures")));
     failures
+}
+
+/// Every skill in a file of its own. `skill.json` is the one that is learned from `demonstrations/`.
+fn skills(left: &PlanarOutcome, folder: &Path) -> Vec<String> {
+    let write = |(index, learned): (usize, &LearnedSkill)| {
+        let name = match index {
+            0 => "skill.json".to_owned(),
+            _ => format!("skill_{}_{}.json", learned.method.key(), learned.guidance.key()),
+        };
+        let text = learned.skill.to_json().map_err(|error| error.to_string())?;
+        write_file(&folder.join(name), &text).map_err(|error| error.to_string())
+    };
+    left.skills.iter().enumerate().filter_map(|skill| write(skill).err()).collect()
 }
 
 /// Every path: demonstrations first, then every movement of every setting.
@@ -56,8 +78,9 @@ pub(super) fn figures(left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
 /// The states of the model that is not told the side, and how they follow each other.
 fn graph(states: &Transitions) -> Figure {
     /// Width and height of the panel (pt).
-    const PANEL_PT: [f64; 2] = [640.0, 320.0];
+    const PANEL_PT: [f64; 2] = [640.0, 250.0];
     let title = "States and chains, the side not told";
-    let panel = transitions("", &states.graph, &states.chains, PANEL_PT[0]);
+    let reading = "*: movements start here; on each arrow the share of the departures that take it";
+    let panel = transitions(reading, &states.graph, &states.chains, PANEL_PT[0]);
     Figure { title: title.to_owned(), panels: vec![panel], columns: 1, panel_size_pt: PANEL_PT }
 }

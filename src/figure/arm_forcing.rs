@@ -5,9 +5,9 @@ use nalgebra::Matrix2;
 use super::arm_run::{ArmRun, DEVIATIONS, kind_of};
 use super::chart::{Axis, Chart, Figure};
 use super::mark::Mark;
-use super::outline::covariance_ellipse;
 use crate::learning::dmp::PhaseInput;
 use crate::learning::{LearningError, motion_sequences};
+use crate::math::covariance_outline;
 use crate::palette::meaning::{PLANNED, TAUGHT};
 
 /// Width and height of a panel (pt).
@@ -47,7 +47,7 @@ pub fn arm_forcing(run: &ArmRun) -> Result<Figure, LearningError> {
             let (mean, all) = (phmm.mean_at(state.state, &features), &phmm.covariances[state.state]);
             let covariance = Matrix2::new(all[(0, 0)], all[(0, j + 1)], all[(j + 1, 0)], all[(j + 1, j + 1)]);
             let (color, legend) = kind_of(state.beta);
-            chart.marks.push(Mark::area(legend, color, 0.15, covariance_ellipse([mean[0], mean[j + 1]], &covariance, DEVIATIONS)));
+            chart.marks.push(Mark::area(legend, color, 0.15, covariance_outline([mean[0], mean[j + 1]], &covariance, DEVIATIONS)));
         }
         let curve = phase.iter().zip(&forcing).map(|(u, f)| [*u, f[j]]).collect();
         chart.marks.push(Mark::line("of the skill in this setting", PLANNED, 1.8, curve));

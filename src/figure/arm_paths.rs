@@ -5,7 +5,7 @@ use nalgebra::Matrix2;
 use super::arm_run::{ArmRun, Curve, DEVIATIONS, kind_of};
 use super::chart::{Axis, Chart, Figure};
 use super::mark::{Mark, Symbol};
-use super::outline::covariance_ellipse;
+use crate::math::covariance_outline;
 use crate::palette::BLACK;
 use crate::palette::meaning::{EXECUTED, PLANNED, TAUGHT};
 
@@ -32,7 +32,7 @@ pub fn arm_paths(run: &ArmRun) -> Option<Figure> {
             let [Some(a), Some(b)] = axes.map(|axis| places[axis]) else { break };
             let spread = Matrix2::from_fn(|i, j| state.between[([a, b][i], [a, b][j])]);
             let (color, legend) = kind_of(state.beta);
-            let outline = covariance_ellipse([state.position[a], state.position[b]], &spread, DEVIATIONS);
+            let outline = covariance_outline([state.position[a], state.position[b]], &spread, DEVIATIONS);
             chart.marks.push(Mark::area(legend, color, 0.15, outline));
         }
         chart.marks.push(Mark::line("planned", PLANNED, 1.6, across(&planned[axes[0]], &planned[axes[1]])));

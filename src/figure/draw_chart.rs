@@ -12,7 +12,7 @@ use super::extent::extent;
 use super::ticks::tick;
 use crate::palette::{BLACK, GREY};
 
-/// Height of the title (pt).
+/// Height of the title (pt), if there is one.
 const TITLE_HEIGHT_PT: f64 = 20.0;
 /// Width of the vertical axis' numbers and label, and height of the horizontal one's (pt).
 const LABELS_PT: [f64; 2] = [46.0, 34.0];
@@ -26,14 +26,15 @@ const TICK_PT: [f64; 2] = [45.0, 20.0];
 /// Draws a panel of this size (pt).
 pub(super) fn draw_chart(chart: &Chart, size_pt: [f64; 2], area: &Page<'_, Shift>) -> Drawn<()> {
     let labels_pt = if chart.axes.is_some() { LABELS_PT } else { [SIDES_PT[1] - SIDES_PT[0], 6.0] };
+    let title_pt = if chart.title.is_empty() { 0.0 } else { TITLE_HEIGHT_PT };
     let left_pt = SIDES_PT[0] + labels_pt[0];
-    let plot_pt = [size_pt[0] - left_pt - SIDES_PT[1], size_pt[1] - labels_pt[1] - TITLE_HEIGHT_PT - TOP_PT];
+    let plot_pt = [size_pt[0] - left_pt - SIDES_PT[1], size_pt[1] - labels_pt[1] - title_pt - TOP_PT];
     let Some([x, y]) = extent(chart, plot_pt) else { return Err("a panel is empty".to_owned()) };
     let title = text(TITLE_PT, BLACK, FontStyle::Bold, Pos::new(HPos::Center, VPos::Center));
     let middle = steps(left_pt + plot_pt[0] / 2.0);
-    area.draw_text(&chart.title, &title, (middle, steps(TOP_PT + TITLE_HEIGHT_PT / 2.0))).map_err(|error| error.to_string())?;
+    area.draw_text(&chart.title, &title, (middle, steps(TOP_PT + title_pt / 2.0))).map_err(|error| error.to_string())?;
     let mut context = ChartBuilder::on(area)
-        .margin_top(steps(TOP_PT + TITLE_HEIGHT_PT))
+        .margin_top(steps(TOP_PT + title_pt))
         .margin_left(steps(SIDES_PT[0]))
         .margin_right(steps(SIDES_PT[1]))
         .x_label_area_size(steps(labels_pt[1]))

@@ -16,9 +16,6 @@ use crate::palette::Rgb;
 const DASH_PT: [f64; 2] = [5.0, 3.0];
 /// Length and half width of an arrow's head (pt).
 const HEAD_PT: [f64; 2] = [7.0, 3.0];
-/// Width of the border of areas and symbols (pt).
-const BORDER_PT: f64 = 0.8;
-
 /// Largest radius of a symbol in the legend (pt).
 const LARGEST_SAMPLE_PT: f64 = 5.0;
 
@@ -69,10 +66,10 @@ fn draw_shape(shape: &Shape, color: Rgb, places: Vec<(i32, i32)>, page: &Page<'_
     match shape {
         Shape::Line { width_pt, dashed: false, .. } => put(page, &PathElement::new(places, stroke(color, *width_pt))),
         Shape::Line { width_pt, dashed: true, .. } => dashes(page, places, color, *width_pt),
-        Shape::Area { opacity, .. } => {
+        Shape::Area { opacity, border_pt, .. } => {
             put(page, &Polygon::new(places.clone(), fill(color, *opacity)))?;
             let closed: Vec<(i32, i32)> = places.iter().chain(places.first()).copied().collect();
-            put(page, &PathElement::new(closed, stroke(color, BORDER_PT)))
+            put(page, &PathElement::new(closed, stroke(color, *border_pt)))
         }
         Shape::Band { opacity, .. } => put(page, &Polygon::new(places, fill(color, *opacity))),
         Shape::Symbols { symbol, radius_pt, .. } => {

@@ -2,11 +2,12 @@
 
 use nalgebra::Vector2;
 
+use super::canvas::{TEXT_PT, width_pt};
 use super::mark::{Anchor, Mark, Shape, Symbol};
 use crate::palette::{BLACK, Rgb};
 
 /// Radius of a node (pt).
-const NODE_PT: f64 = 11.0;
+pub(super) const NODE_PT: f64 = 11.0;
 
 /// A node.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +54,7 @@ pub fn graph(nodes: &[Node], edges: &[Edge], pt: f64) -> Vec<Mark> {
         let margin = (NODE_PT * pt / way.norm()).min(0.45);
         let points = (0..=24).map(|i| curve(margin + (1.0 - 2.0 * margin) * f64::from(i) / 24.0).into()).collect();
         marks.push(Mark { legend: String::new(), color: edge.color, shape: Shape::Arrow { points, width_pt: edge.width_pt } });
-        let beside = curve(0.5) + left * (7.0 * pt);
+        let beside = curve(0.5) + left * (clear_of_edge_pt(&edge.label, left) * pt);
         marks.push(Mark::words(BLACK, beside.into(), Anchor::Middle, &edge.label));
     }
     for node in nodes {
@@ -61,4 +62,11 @@ pub fn graph(nodes: &[Node], edges: &[Edge], pt: f64) -> Vec<Mark> {
         marks.push(Mark::words(BLACK, node.at, Anchor::Middle, &node.name));
     }
     marks
+}
+
+/// How far the middle of a label is from its edge (pt) for the label's box, seen along the direction `aside`, to leave a gap to it.
+fn clear_of_edge_pt(label: &str, aside: Vector2<f64>) -> f64 {
+    /// The gap (pt).
+    const GAP_PT: f64 = 2.0;
+    aside.x.abs() * width_pt(label, TEXT_PT) / 2.0 + aside.y.abs() * TEXT_PT / 2.0 + GAP_PT
 }

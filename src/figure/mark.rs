@@ -31,6 +31,8 @@ pub enum Shape {
         outline: Vec<[f64; 2]>,
         /// How much of what is behind it is covered (0 … 1).
         opacity: f64,
+        /// Width of its border (pt).
+        border_pt: f64,
     },
     /// A stretch of the horizontal axis, filled from the bottom of the panel to its top.
     Band {
@@ -106,7 +108,19 @@ impl Mark {
     /// A filled outline.
     #[must_use]
     pub fn area(legend: &str, color: Rgb, opacity: f64, outline: Vec<[f64; 2]>) -> Self {
-        Self { legend: legend.to_owned(), color, shape: Shape::Area { outline, opacity } }
+        Self { legend: legend.to_owned(), color, shape: Shape::Area { outline, opacity, border_pt: 0.8 } }
+    }
+
+    /// A filled outline with a thin border, for areas of which many lie on each other.
+    #[must_use]
+    pub fn faint_area(legend: &str, color: Rgb, outline: Vec<[f64; 2]>) -> Self {
+        Self { legend: legend.to_owned(), color, shape: Shape::Area { outline, opacity: 0.05, border_pt: 0.3 } }
+    }
+
+    /// A symbol in the legend for marks that are drawn elsewhere, or later.
+    #[must_use]
+    pub fn entry(legend: &str, color: Rgb, symbol: Symbol, radius_pt: f64) -> Self {
+        Self::symbols(legend, color, symbol, radius_pt, Vec::new())
     }
 
     /// A stretch of the horizontal axis. It does not widen the axis.

@@ -4,10 +4,10 @@ use nalgebra::Matrix2;
 
 use super::chart::{Axis, Chart, Figure};
 use super::mark::Mark;
-use super::outline::covariance_ellipse;
-use super::planar_paths::method_color;
+use super::transitions::chain_name;
+use crate::math::covariance_outline;
 use crate::palette::{GREY, Rgb, VERMILION};
-use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian};
+use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian, chain_color};
 
 /// Width and height of a panel (pt).
 const PANEL_PT: [f64; 2] = [560.0, 230.0];
@@ -15,30 +15,49 @@ const PANEL_PT: [f64; 2] = [560.0, 230.0];
 const DEVIATIONS: f64 = 2.0;
 
 /// Two panels, x above y: what demonstrations ask for, and what `method` makes of it for taught situations and for new ones. Ellipses are the
-/// states at two standard deviations, for every situation that is drawn.
+/// states at two standard deviations, for every situation that is drawn. Chains have a colour each.
 #[must_use]
 pub fn planar_forcing(title: &str, outcome: &PlanarOutcome, guidance: Guidance, method: Method) -> Figure {
-    let curves: Vec<&ForcingCurve> = outcome.forcing.iter().filter(|curve| curve.guidance == guidance).collect();
-    let panels = ["x", "y"].iter().enumerate().map(|(axis, name)| panel(name, axis, &curves, method)).collect();
+    let (own, demonstrated): (Vec<&ForcingCurve>, Vec<&ForcingCurve>) =
+        outcome.forcing_with(guidance).filter(|curve| curve.method.is_none_or(|of| of == method)).partition(|curve| curve.method.is_some());
+    let panels = ["x", "y"].iter().enumerate().map(|(axis, name)| panel(name, axis, method, &own, &demonstrated)).collect();
     Figure { title: title.to_owned(), panels, columns: 1, panel_size_pt: PANEL_PT }
 }
 
-fn panel(name: &str, axis: usize, curves: &[&ForcingCurve], method: Method) -> Chart {
+/// Ellipses behind, what was demonstrated on them, and the model's lines on top: the dashes of new situations let taught ones be seen.
+fn panel(name: &str, axis: usize, method: Method, own: &[&ForcingCurve], demonstrated: &[&ForcingCurve]) -> Chart {
     let mut chart = Chart::plot("", [Axis::new("phase input (-)"), Axis::new(&format!("forcing along {name} (m)"))]);
     let points = |curve: &ForcingCurve| curve.phase.iter().zip(&curve.forcing_m).map(|(u, f)| [*u, f[axis]]).collect();
-    let demonstrated = curves.iter().filter(|curve| curve.method.is_none());
-    chart.marks.extend(demonstrated.map(|curve| Mark::line("demonstrated", GREY, 0.6, points(curve))));
-    for curve in curves.iter().filter(|curve| curve.method == Some(method)) {
-        let (kind, color) = if curve.taught { ("taught", method_color(method)) } else { ("new", VERMILION) };
-        let outlines = curve.states.iter().map(|state| outline(state, axis, color, &format!("states, {kind}")));
-        chart.marks.extend(outlines);
-        chart.marks.push(Mark::line(&format!("{}, {kind}", method.title()), color, 1.4, points(curve)));
+    let outlines = own.iter().flat_map(|curve| {
+        let (name, color) = look(curve, method);
+        // A chain's colour is the same in every situation.
+        let name = curve.chain.map_or(name, chain_name);
+        curve.states.iter().map(move |state| Mark::faint_area(&format!("states of {name}"), color, outline(state, axis)))
+    });
+    chart.marks.extend(outlines);
+    chart.marks.extend(demonstrated.iter().map(|curve| Mark::line("demonstrated", GREY, 0.8, points(curve))));
+    for taught in [true, false] {
+        let lines = own.iter().filter(|curve| curve.taught == taught).map(|curve| {
+            let (name, color) = look(curve, method);
+            let draw = if taught { Mark::line } else { Mark::dashes };
+            draw(&name, color, 1.2, points(curve))
+        });
+        chart.marks.extend(lines);
     }
     chart
 }
 
-fn outline(state: &StateGaussian, axis: usize, color: Rgb, legend: &str) -> Mark {
+/// What the legend calls a curve, and its colour.
+fn look(curve: &ForcingCurve, method: Method) -> (String, Rgb) {
+    let kind = if curve.taught { "taught" } else { "new" };
+    match curve.chain {
+        Some(chain) => (format!("{}, {kind}", chain_name(chain)), chain_color(chain)),
+        None => (format!("{}, {kind}", method.title()), if curve.taught { method.color() } else { VERMILION }),
+    }
+}
+
+fn outline(state: &StateGaussian, axis: usize) -> Vec<[f64; 2]> {
     let row = axis + 1;
     let covariance = Matrix2::new(state.covariance[0][0], state.covariance[0][row], state.covariance[row][0], state.covariance[row][row]);
-    Mark::area(legend, color, 0.08, covariance_ellipse([state.mean[0], state.mean[row]], &covariance, DEVIATIONS))
+    covariance_outline([state.mean[0], state.mean[row]], &covariance, DEVIATIONS)
 }

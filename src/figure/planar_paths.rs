@@ -2,34 +2,22 @@
 
 use super::chart::{Axis, Chart, Figure};
 use super::mark::{Mark, Symbol};
-use super::outline::ellipse;
-use crate::palette::{BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, Rgb, VERMILION};
+use crate::math::ellipse_outline;
+use crate::palette::{BLACK, GREY, VERMILION};
 use crate::planar::{Case, Ellipse, Guidance, Method, Movement, PlanarOutcome};
 
 /// Width and height of a panel (pt).
 const PANEL_PT: [f64; 2] = [300.0, 320.0];
-
-/// The colour of a method, in every figure.
-#[must_use]
-pub fn method_color(method: Method) -> Rgb {
-    match method {
-        Method::Cpdmp => BLUE,
-        Method::CpdmpProduct => PURPLE,
-        Method::CpdmpChain => GREEN,
-        Method::LwrDmp => ORANGE,
-        Method::TpGmm => BLACK,
-    }
-}
+/// Panels side by side, at most.
+const MOST_COLUMNS: usize = 3;
 
 /// One panel per method: demonstrations, obstacle, paths to taught situations (thin) and to new ones (thick), collisions marked.
 #[must_use]
 pub fn planar_paths(title: &str, outcome: &PlanarOutcome, guidance: Guidance) -> Figure {
     let cases: Vec<&Case> = outcome.cases_with(guidance).collect();
-    let mut methods: Vec<Method> = cases.iter().flat_map(|case| &case.movements).map(|movement| movement.method).collect();
-    methods.sort();
-    methods.dedup();
-    let panels = methods.iter().map(|method| panel(*method, outcome, &cases)).collect();
-    Figure { title: title.to_owned(), panels, columns: 2, panel_size_pt: PANEL_PT }
+    let panels: Vec<Chart> = outcome.methods_with(guidance).into_iter().map(|method| panel(method, outcome, &cases)).collect();
+    let columns = panels.len().clamp(1, MOST_COLUMNS);
+    Figure { title: title.to_owned(), panels, columns, panel_size_pt: PANEL_PT }
 }
 
 fn panel(method: Method, outcome: &PlanarOutcome, cases: &[&Case]) -> Chart {
@@ -48,20 +36,32 @@ fn panel(method: Method, outcome: &PlanarOutcome, cases: &[&Case]) -> Chart {
             obstacles.push(case.obstacle);
         }
     }
-    chart.marks.extend(obstacles.iter().map(|o| Mark::area("obstacle", GREY, 0.35, ellipse(o.centre_m, o.half_axes_m))));
+    chart.marks.extend(obstacles.iter().map(|o| Mark::area("obstacle", GREY, 0.35, ellipse_outline(o.centre_m, o.half_axes_m))));
     chart.marks.extend(outcome.demonstrations.iter().map(|shown| Mark::line("demonstrated", GREY, 0.6, shown.path_m.clone())));
     let movements = || cases.iter().flat_map(|case| case.of(method).map(move |movement| (*case, movement)));
     chart.marks.extend(movements().map(|(case, movement)| path(case, movement)));
-    let goals = |taught: bool| cases.iter().filter(move |case| case.taught == taught).map(|case| case.goal_m).collect::<Vec<_>>();
-    chart.marks.push(Mark::symbols("taught goal", BLACK, Symbol::Ring, 3.0, goals(true)));
-    chart.marks.push(Mark::symbols("new goal", BLACK, Symbol::Square, 2.5, goals(false)));
-    let hits = movements().filter(|(_, movement)| movement.collides).filter_map(|(case, movement)| deepest(case, movement)).collect();
-    chart.marks.push(Mark::symbols("collision", VERMILION, Symbol::Cross, 4.5, hits));
+    chart.marks.extend(goals(cases));
+    let hits: Vec<[f64; 2]> =
+        movements().filter(|(_, movement)| movement.collides).filter_map(|(case, movement)| deepest(case, movement)).collect();
+    if !hits.is_empty() {
+        chart.marks.push(Mark::symbols("collision", VERMILION, Symbol::Cross, 4.5, hits));
+    }
     chart
 }
 
+/// Taught and new goals, or the one that all situations share.
+fn goals(cases: &[&Case]) -> Vec<Mark> {
+    let of = |taught: bool| cases.iter().filter(move |case| case.taught == taught).map(|case| case.goal_m).collect::<Vec<_>>();
+    if let [first, rest @ ..] = cases
+        && rest.iter().all(|case| case.goal_m == first.goal_m)
+    {
+        return vec![Mark::symbols("goal", BLACK, Symbol::Ring, 3.0, vec![first.goal_m])];
+    }
+    vec![Mark::symbols("taught goal", BLACK, Symbol::Ring, 3.0, of(true)), Mark::symbols("new goal", BLACK, Symbol::Square, 2.5, of(false))]
+}
+
 fn path(case: &Case, movement: &Movement) -> Mark {
-    let color = method_color(movement.method);
+    let color = movement.method.color();
     let (kind, width_pt) = if case.taught { ("taught", 0.9) } else { ("new", 2.0) };
     let legend = format!("{}, {kind}", movement.method.title());
     if case.taught {

@@ -1,24 +1,18 @@
 //! Which state follows which: a transition graph as a panel (the paper's Fig. 4).
 
 use super::chart::Chart;
-use super::graph::{Edge, Node, graph};
+use super::graph::{Edge, NODE_PT, Node, graph};
+use super::mark::{Mark, Symbol};
 use crate::learning::phmm::{StateChain, TransitionGraph};
-use crate::palette::{BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION};
+use crate::palette::{BLACK, GREY};
+use crate::planar::chain_color;
 
-/// Colours of chains, in order; with more chains they come again.
-const CHAIN_COLORS: [Rgb; 6] = [ORANGE, SKY_BLUE, GREEN, PURPLE, VERMILION, BLUE];
 /// Width of the graph, and distance of the lanes of two chains (pt).
 const GRAPH_PT: [f64; 2] = [560.0, 90.0];
 /// Widths of the rarest and of the surest edge (pt).
 const EDGE_PT: [f64; 2] = [0.5, 2.0];
 /// States nearer in phase than this share of the phase's range are drawn this far apart (-): or their discs would touch.
 const LEAST_STEP: f64 = 0.055;
-
-/// The colour of a chain.
-#[must_use]
-pub fn chain_color(chain: usize) -> Rgb {
-    CHAIN_COLORS[chain % CHAIN_COLORS.len()]
-}
 
 /// The graph as a panel `width_pt` wide: states from left to right in the order of their phase, one lane per chain, the share of the
 /// departures on each arrow. States of several chains lie between their lanes, states of none below all lanes, in grey.
@@ -30,7 +24,7 @@ pub fn transitions(title: &str, states: &TransitionGraph, chains: &[StateChain],
         let lane = if of.is_empty() { chains.len() as f64 } else { of.iter().sum::<usize>() as f64 / of.len() as f64 };
         let (color, legend) = match of[..] {
             [] => (GREY, "in no chain".to_owned()),
-            [chain] => (chain_color(chain), format!("chain {}", chain + 1)),
+            [chain] => (chain_color(chain), chain_name(chain)),
             _ => (GREY.lighter(0.5), "in several chains".to_owned()),
         };
         let mark = if states.nodes[index].start { "*" } else { "" };
@@ -46,8 +40,15 @@ pub fn transitions(title: &str, states: &TransitionGraph, chains: &[StateChain],
     };
     let edges: Vec<Edge> = states.edges.iter().map(edge).collect();
     let mut chart = Chart::bare(title);
-    chart.marks = graph(&nodes, &edges, GRAPH_PT[0] / width_pt.max(1.0));
+    // The legend names the chains in their order, whichever state comes first.
+    chart.marks.extend((0..chains.len()).map(|chain| Mark::entry(&chain_name(chain), chain_color(chain), Symbol::Disc, NODE_PT)));
+    chart.marks.extend(graph(&nodes, &edges, GRAPH_PT[0] / width_pt.max(1.0)));
     chart
+}
+
+/// What people call a chain: they count from 1.
+pub(super) fn chain_name(chain: usize) -> String {
+    format!("chain {}", chain + 1)
 }
 
 /// Where each state is from left (0) to right: by its phase, at least [`LEAST_STEP`] after the state before it.

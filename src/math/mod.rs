@@ -10,6 +10,7 @@ mod least_squares;
 mod log_domain;
 mod minimum_jerk;
 mod orientation;
+mod outline;
 mod random;
 mod spectral;
 
@@ -20,5 +21,6 @@ pub use least_squares::{LeastSquares, solve_normal_equations, solve_weighted};
 pub use log_domain::{log_sum_exp, softmax_in_place};
 pub use minimum_jerk::{MinimumJerk, minimum_jerk, smooth_step};
 pub use orientation::{continuous_log, exp_map, log_map, mean_quaternion, right_jacobian, same_hemisphere, slerp};
+pub use outline::{covariance_outline, ellipse_outline};
 pub use random::{standard_normal, stream, uniform};
 pub use spectral::{clamp_eigenvalues, eigenvalue_range, symmetric_pseudo_inverse};

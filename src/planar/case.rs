@@ -58,9 +58,9 @@ pub struct Case {
     pub ideals: Vec<Ideal>,
     /// What the methods do.
     pub movements: Vec<Movement>,
-    /// The method that keeps most of the ideal clearance on every ideal side, the smaller path error deciding among those that keep all
-    /// of it;
-    /// `None` when every method fails on some side.
+    /// The method that keeps most of the ideal clearance on the ideal side on which it keeps least of it. More than the ideal counts as
+    /// the ideal; of methods that keep the same within 1 % of it, the one with the smaller path error. `None` when every method fails on
+    /// some side: collides there, or never passes there.
     pub winner: Option<Method>,
 }
 
@@ -89,16 +89,17 @@ impl Case {
         let mut methods: Vec<Method> = self.movements.iter().map(|movement| movement.method).collect();
         methods.sort();
         methods.dedup();
-        let mut best: Option<(Method, f64, f64)> = None;
-        for method in methods {
-            let Some(sides) = self.ideals.iter().map(|ideal| self.best(method, ideal.side)).collect::<Option<Vec<_>>>() else { continue };
-            let kept = sides.iter().map(|m| m.clearance_ratio.min(1.0)).fold(f64::INFINITY, f64::min);
-            let error = sides.iter().map(|m| m.path_error_m).fold(0.0, f64::max);
-            let better = best.is_none_or(|(_, k, e)| kept > k + EQUAL || (kept > k - EQUAL && error < e));
-            if better {
-                best = Some((method, kept, error));
-            }
-        }
-        self.winner = best.map(|(method, ..)| method);
+        let rated: Vec<(Method, f64, f64)> = methods.into_iter().filter_map(|method| self.rated(method)).collect();
+        let most = rated.iter().map(|(_, kept, _)| *kept).fold(f64::NEG_INFINITY, f64::max);
+        let equal = rated.into_iter().filter(|(_, kept, _)| *kept >= most - EQUAL);
+        self.winner = equal.min_by(|(.., a), (.., b)| a.total_cmp(b)).map(|(method, ..)| method);
+    }
+
+    /// A method with the least share of the ideal clearance that it keeps on any ideal side (-, at most 1), and its largest path error
+    /// there (m); `None` when it fails on one of them.
+    fn rated(&self, method: Method) -> Option<(Method, f64, f64)> {
+        let sides = self.ideals.iter().map(|ideal| self.best(method, ideal.side)).collect::<Option<Vec<_>>>()?;
+        let kept = sides.iter().map(|movement| movement.clearance_ratio.min(1.0)).fold(f64::INFINITY, f64::min);
+        Some((method, kept, sides.iter().map(|movement| movement.path_error_m).fold(0.0, f64::max)))
     }
 }

@@ -1,5 +1,16 @@
 //! Who moves, what it is told, and on which side it passes.
 
+use crate::palette::{BLACK, BLUE, GREEN, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION};
+
+/// Colours of chains, in order; with more chains they come again.
+const CHAIN_COLORS: [Rgb; 6] = [ORANGE, SKY_BLUE, GREEN, PURPLE, VERMILION, BLUE];
+
+/// The colour of a chain, wherever it is drawn.
+#[must_use]
+pub fn chain_color(chain: usize) -> Rgb {
+    CHAIN_COLORS[chain % CHAIN_COLORS.len()]
+}
+
 /// What made a movement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
@@ -37,6 +48,18 @@ impl Method {
             Self::CpdmpChain => "CPDMP, one chain",
             Self::LwrDmp => "LWR-DMP",
             Self::TpGmm => "TP-GMM",
+        }
+    }
+
+    /// Its colour, wherever it is drawn.
+    #[must_use]
+    pub fn color(self) -> Rgb {
+        match self {
+            Self::Cpdmp => BLUE,
+            Self::CpdmpProduct => PURPLE,
+            Self::CpdmpChain => GREEN,
+            Self::LwrDmp => ORANGE,
+            Self::TpGmm => BLACK,
         }
     }
 
@@ -85,4 +108,16 @@ pub enum Guidance {
     WithSide,
     /// The side is not told (section 4.2, second part).
     WithoutSide,
+}
+
+impl Guidance {
+    /// Its name in keys, columns and entities.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::OneSide => "one_side",
+            Self::WithSide => "with_side",
+            Self::WithoutSide => "without_side",
+        }
+    }
 }

@@ -6,7 +6,8 @@
 
 use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::{
-    COLUMNS, Case, Ellipse, Guidance, HandPath, HandSettings, Ideal, Method, PlanarOutcome, Side, demonstrated_forcing, forcing_curve,
+    COLUMNS, Case, Ellipse, Guidance, HandPath, HandSettings, Ideal, LearnedSkill, Method, PlanarOutcome, Side, demonstrated_forcing,
+    forcing_curve,
 };
 use crate::demonstration::{Dataset, ParameterSource, Parameters};
 use crate::learning::phmm::PhmmSettings;
@@ -149,11 +150,13 @@ pub fn obstacle_avoidance(settings: &ObstacleAvoidanceSettings, seed: u64) -> Re
             forcing.push(forcing_curve((method, Guidance::OneSide, None), skill, &theta(x), taught)?);
         }
     }
+    let skills = skills.map(|(method, skill)| LearnedSkill { method, guidance: Guidance::OneSide, skill: skill.clone() }).to_vec();
     let obstacles = vec![settings.obstacle(); dataset.demonstrations.len()];
     let reports = [(Method::Cpdmp, &cpdmp.report), (Method::LwrDmp, &lwr.report)];
     Ok(PlanarOutcome {
         demonstrations: shown(&dataset, &obstacles)?,
         models: reports.map(|(method, report)| model_report(method, Guidance::OneSide, report, settings.learning.lwr_basis)).to_vec(),
+        skills,
         cases,
         forcing,
         transitions: None,

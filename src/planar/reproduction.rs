@@ -82,6 +82,7 @@ pub(super) fn model_report(method: Method, guidance: Guidance, report: &Learning
         method,
         guidance,
         states: report.motion.as_ref().map_or(basis, |fit| fit.states),
+        starts: report.motion.as_ref().map_or(0, |fit| fit.starts.len()),
         status: report.motion.as_ref().map(|fit| fit.status),
         log_likelihood: report.motion.as_ref().map_or_else(Vec::new, |fit| fit.log_likelihood.clone()),
         warnings: report.warnings.clone(),

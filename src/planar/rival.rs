@@ -35,6 +35,7 @@ impl Rival {
             method: Method::TpGmm,
             guidance,
             states: settings.tpgmm.components,
+            starts: fitted.starts.len(),
             status: Some(fitted.status),
             log_likelihood: fitted.history,
             warnings: Vec::new(),

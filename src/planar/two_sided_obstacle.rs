@@ -9,8 +9,8 @@ use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::rival::Rival;
 use super::two_sided_settings::TwoSidedObstacleSettings;
 use super::{
-    Case, Ellipse, ForcingCurve, Guidance, Ideal, Method, ModelReport, Movement, PlanarOutcome, Side, Transitions, demonstrated_forcing,
-    forcing_curve,
+    Case, Ellipse, ForcingCurve, Guidance, Ideal, LearnedSkill, Method, ModelReport, Movement, PlanarOutcome, Side, Transitions,
+    demonstrated_forcing, forcing_curve,
 };
 use crate::demonstration::Parameters;
 use crate::learning::cpdmp::{Compliance, Shaping};
@@ -25,6 +25,14 @@ struct Learned {
     rival: Rival,
     models: Vec<ModelReport>,
     transitions: Option<Transitions>,
+}
+
+impl Learned {
+    /// The skills that are not a part of another one.
+    fn whole_skills(&self) -> impl Iterator<Item = LearnedSkill> {
+        let whole = self.skills.iter().filter(|(_, chain, _)| chain.is_none());
+        whole.map(|(method, _, skill)| LearnedSkill { method: *method, guidance: self.guidance, skill: skill.clone() })
+    }
 }
 
 /// The experiment: the same settings and seed give the same outcome.
@@ -48,10 +56,12 @@ pub fn two_sided_obstacle(settings: &TwoSidedObstacleSettings, seed: u64) -> Res
         cases.push(case(settings, &without, half_width, taught, &[Side::Left, Side::Right])?);
         forcing.extend(curves(&without, half_width, taught, None)?);
     }
+    let skills = [&with, &without].into_iter().flat_map(Learned::whole_skills).collect();
     let obstacles: Vec<Ellipse> = settings.shown_situations().iter().map(|(half_width, _)| settings.obstacle(*half_width)).collect();
     Ok(PlanarOutcome {
         demonstrations: shown(&dataset, &obstacles)?,
         models: with.models.into_iter().chain(without.models).collect(),
+        skills,
         cases,
         forcing,
         transitions: without.transitions,

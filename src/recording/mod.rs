@@ -1,8 +1,9 @@
 //! Readers of a run that keep it: the recording for the rerun viewer, and the step log for analysis.
 //!
-//! Both are written from a [`RunOutcome`](crate::simulation::RunOutcome) when it is over, so they cannot change or delay a run. The step
-//! log (`steps.parquet`; `paths.parquet` of a planar run) is the archive: exact numbers, documented columns. The recording (`recording.rrd`, cargo feature `rerun`) is the
-//! view: everything in it is named in `entity_path`, and the layout that it opens with is inside the file.
+//! Both are written from a [`RunOutcome`](crate::simulation::RunOutcome), or a [`PlanarOutcome`](crate::planar::PlanarOutcome), when the
+//! run is over, so they cannot change or delay it. The step log (`steps.parquet`; `paths.parquet` of a planar run) is the archive: exact
+//! numbers, documented columns. The recording (`recording.rrd`, cargo feature `rerun`) is the view: everything in it is named in
+//! `entity_path` (`planar_entity` for a planar run), and the layout that it opens with is inside the file.
 
 mod error;
 mod path_log;
@@ -16,7 +17,7 @@ mod step_table;
 pub use error::RecordingError;
 pub use path_log::{LoggedPath, PATH_COLUMNS, PATH_LOG_VERSION, write_path_log};
 #[cfg(feature = "rerun")]
-pub use rrd::{entity_path, write_recording};
+pub use rrd::{entity_path, planar_entity, write_planar_recording, write_recording};
 pub use step_columns::{StepColumn, step_columns};
 pub use step_log::{STEP_LOG_VERSION, write_step_log};
 pub use step_reader::read_step_log;

@@ -90,14 +90,6 @@ fn methods_of(cases: &[&Case]) -> Vec<Method> {
     methods
 }
 
-fn guidance_name(guidance: Guidance) -> &'static str {
-    match guidance {
-        Guidance::OneSide => "one_side",
-        Guidance::WithSide => "with_side",
-        Guidance::WithoutSide => "without_side",
-    }
-}
-
 fn kind(case: &Case) -> &'static str {
     match (case.taught, case.extrapolation > 0.0) {
         (true, _) => "taught",
@@ -113,7 +105,7 @@ fn finite(number: f64) -> Option<f64> {
 fn setting(case: &Case) -> SettingReport {
     SettingReport {
         name: case.name.clone(),
-        guidance: guidance_name(case.guidance),
+        guidance: case.guidance.key(),
         kind: kind(case),
         extrapolation: finite(case.extrapolation),
         ideal_clearance_m: case.ideals.iter().map(|ideal| ideal.clearance_m).reduce(f64::min),
@@ -138,7 +130,7 @@ fn summary(method: Method, guidance: Guidance, cases: &[&Case]) -> MethodSummary
     let movements = || cases.iter().flat_map(|case| case.of(method));
     MethodSummary {
         method: method.key(),
-        guidance: guidance_name(guidance),
+        guidance: guidance.key(),
         movements: movements().count(),
         collisions: movements().filter(|movement| movement.collides).count(),
         wins: cases.iter().filter(|case| case.winner == Some(method)).count(),

@@ -11,7 +11,7 @@ pub(super) fn learning(model: &ModelReport) -> LearningSection {
     LearningSection {
         log_likelihood: model.log_likelihood.iter().map(|value| value.is_finite().then_some(*value)).collect(),
         states: model.states,
-        starts: 0,
+        starts: model.starts,
         status: model.status.map_or("least_squares", fit_status),
         warnings: model.warnings.clone(),
     }

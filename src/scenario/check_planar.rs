@@ -8,16 +8,22 @@ use super::tree::{Node, Value};
 const OF_ARMS: [&str; 9] = ["parameters", "demonstrations", "robot", "simulation", "object", "teaching", "coupling", "execution", "human"];
 
 /// Keys of the learning that planar experiments decide themselves.
-const DECIDED: [&str; 5] = ["theta_m", "theta_f", "shaping", "force", "compliance"];
+const DECIDED: [&str; 3] = ["theta_m", "theta_f", "shaping"];
+
+/// Keys of the learning about what movements in a plane do not have: forces, compliance to them, an orientation.
+const ABSENT: [&str; 3] = ["force", "compliance", "orientation_basis"];
+
+/// Keys of the learning that mean nothing for one kind of experiment: where LWR-DMP is no rival, its basis.
+const ABSENT_FROM: [(&str, &str); 1] = [("two_sided_obstacle", "lwr_basis")];
 
 /// The filled scenario without what means nothing to it: defaults that nobody typed, and that could not be typed.
 pub(super) fn without_arm(mut scenario: Node) -> Node {
-    if scenario.get("planar").is_some() {
+    if let Some(kind) = scenario.get("planar").map(kind_of) {
         OF_ARMS.iter().for_each(|key| _ = scenario.take(key));
         if let Value::Table(entries) = &mut scenario.value
             && let Some(learning) = entries.iter_mut().find(|entry| entry.key == "learning")
         {
-            DECIDED.iter().for_each(|key| _ = learning.node.take(key));
+            meaningless(&kind).for_each(|(key, _)| _ = learning.node.take(key));
         }
     }
     scenario
@@ -33,9 +39,10 @@ pub(super) fn planar(scenario: &Node, faults: &mut Vec<Fault>) {
             Fault::at(Code::Conflict, entry.origin, message).expected("a planar experiment, or an arm").help("leave one of them out")
         }));
         let learning = scenario.get("learning");
-        let decided = DECIDED.iter().filter_map(|key| learning.filter(|table| is_typed(table, key))?.entry(key));
-        faults.extend(decided.map(|entry| {
-            let message = format!("`learning.{}` means nothing for a planar experiment, which decides it itself", entry.key);
+        let kind = scenario.get("planar").map(kind_of).unwrap_or_default();
+        let typed = meaningless(&kind).filter_map(|(key, why)| Some((learning.filter(|table| is_typed(table, key))?.entry(key)?, why)));
+        faults.extend(typed.map(|(entry, why)| {
+            let message = format!("`learning.{}` means nothing for a planar experiment, which {why}", entry.key);
             Fault::at(Code::Conflict, entry.origin, message).help("leave it out")
         }));
     }
@@ -45,4 +52,17 @@ pub(super) fn planar(scenario: &Node, faults: &mut Vec<Fault>) {
         let expected = if planar { "a kind that begins with `planar_`" } else { "a kind about the arm" };
         faults.push(Fault::at(Code::Conflict, kind.origin, message).expected(expected));
     }
+}
+
+/// The kind of the experiment; empty if there is none, or none that is known.
+fn kind_of(planar: &Node) -> String {
+    planar.get("kind").and_then(Node::as_text).unwrap_or_default().to_owned()
+}
+
+/// Keys of `[learning]` that mean nothing for a kind of experiment, and why.
+fn meaningless(kind: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let decided = DECIDED.iter().map(|key| (*key, "decides it itself"));
+    let absent = ABSENT.iter().map(|key| (*key, "has no such thing"));
+    let of_kind = ABSENT_FROM.iter().filter(move |(of, _)| *of == kind).map(|(_, key)| (*key, "has no such thing"));
+    decided.chain(absent).chain(of_kind)
 }

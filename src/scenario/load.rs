@@ -152,6 +152,8 @@ mod tests {
     use super::*;
     use crate::learning::LearningSettings;
     use crate::learning::cpdmp::CouplingSettings;
+    use crate::planar::{ObstacleAvoidanceSettings, TwoSidedObstacleSettings};
+    use crate::scenario::PlanarPlan;
     use crate::simulation::Experiment;
     use crate::world::{HumanSettings, PhysicsSettings, SensorSettings};
 
@@ -183,6 +185,30 @@ mod tests {
         assert_eq!(experiment.human, HumanSettings::default());
         assert_eq!(experiment.robot.sensor, SensorSettings::default());
         assert_eq!(experiment.physics, PhysicsSettings::default());
+    }
+
+    /// The experiment of a file with nothing but `[planar]` and its kind, and `more`.
+    fn plane(kind: &str, more: &str) -> PlanarPlan {
+        let Work::Planar(run) = load(&format!("schema_version = 1\nname = \"plane\"\n[planar]\nkind = \"{kind}\"\n{more}")).work else {
+            panic!("no plane")
+        };
+        run.plan
+    }
+
+    /// Learning has defaults of its own, which every scenario shares; with the learning of the experiment typed out, all is the same.
+    #[test]
+    fn the_defaults_of_planar_experiments_are_those_of_their_room() {
+        let (avoidance, two_sided) = (ObstacleAvoidanceSettings::default(), TwoSidedObstacleSettings::default());
+        let motion = "[learning.motion]\nkmeans_starts = 0\n";
+        for (typed, ridge) in [("", None), (&format!("{motion}ridge = 0.01"), Some(0.01))] {
+            let PlanarPlan::ObstacleAvoidance(found) = plane("obstacle_avoidance", typed) else { panic!("another experiment") };
+            let learning = if ridge.is_some() { avoidance.learning.clone() } else { LearningSettings::default() };
+            assert_eq!(*found, ObstacleAvoidanceSettings { learning, ..avoidance.clone() });
+        }
+        let PlanarPlan::TwoSidedObstacle(found) = plane("two_sided_obstacle", "") else { panic!("another experiment") };
+        assert_eq!(*found, TwoSidedObstacleSettings { learning: LearningSettings::default(), ..two_sided.clone() });
+        let PlanarPlan::TwoSidedObstacle(found) = plane("two_sided_obstacle", motion) else { panic!("another experiment") };
+        assert_eq!(*found, two_sided);
     }
 
     /// Contract: the resolved scenario says all that there is to say. It holds every kind of object, help and criterion once.

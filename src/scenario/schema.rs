@@ -47,12 +47,12 @@ const PLANAR: Shape = Shape {
         Key::new("start_m", Vector(within("m", -100.0, 100.0), Exactly(2)), "where movements start").or(Preset::Vector(&[0.0, -4.0])),
         Key::new("clearance_m", Number(within("m", 0.01, 10.0)), "distance at which the person passes the obstacle's edge").or_number(1.0),
         Key::new("pass_fraction", Number(within("", 0.1, 0.9)), "when they pass it, as a fraction of the duration").or_number(0.5),
-        Key::new("hand", Section(HAND), "how movements are shown").or_empty(),
     ],
     variants: &[
         Variant {
             kind: "obstacle_avoidance",
             keys: &[
+                Key::new("hand", Section(TWICE), "how movements are shown").or_empty(),
                 Key::new("goal_y_m", Number(within("m", -100.0, 100.0)), "where goals lie along y").or_number(4.0),
                 Key::new("obstacle_half_width_m", Number(within("m", 0.05, 10.0)), "half width of the obstacle, along x").or_number(1.0),
                 Key::new("taught_goals_x_m", Vector(within("m", -100.0, 100.0), AtLeast(2)), "taught goals along x")
@@ -64,6 +64,7 @@ const PLANAR: Shape = Shape {
         Variant {
             kind: "two_sided_obstacle",
             keys: &[
+                Key::new("hand", Section(THRICE), "how movements are shown").or_empty(),
                 Key::new(
                     "taught_half_widths_m",
                     Vector(within("m", 0.05, 10.0), AtLeast(2)),
@@ -83,16 +84,21 @@ const PLANAR: Shape = Shape {
     ],
 };
 
-const HAND: Shape = Shape::plain(&[
-    Key::new("repetitions", Count(1, 50), "how often each situation is shown").or(Preset::Count(2)),
-    Key::new("duration_s", Number(within("s", 0.5, 60.0)), "mean duration").or_number(4.0),
-    Key::new("rate_hz", Number(within("Hz", 10.0, 1000.0)), "samples per second").or_number(100.0),
-    Key::new("duration_spread", Number(within("", 0.0, 0.3)), "spread of the duration, as a fraction of it").or_number(0.05),
-    Key::new("timing_spread", Number(within("", 0.0, 0.1)), "spread of when the obstacle is passed, as a fraction of the duration")
-        .or_number(0.02),
-    Key::new("shape_spread_m", Number(within("m", 0.0, 1.0)), "spread of where it is passed, per axis").or_number(0.05),
-    Key::new("noise_m", Number(within("m", 0.0, 0.1)), "noise of the position sensor per axis, standard deviation").or_number(0.002),
-]);
+const TWICE: Shape = Shape::plain(&hand(2));
+const THRICE: Shape = Shape::plain(&hand(3));
+
+const fn hand(repetitions: i64) -> [Key; 7] {
+    [
+        Key::new("repetitions", Count(1, 50), "how often each situation is shown").or(Preset::Count(repetitions)),
+        Key::new("duration_s", Number(within("s", 0.5, 60.0)), "mean duration").or_number(4.0),
+        Key::new("rate_hz", Number(within("Hz", 10.0, 1000.0)), "samples per second").or_number(100.0),
+        Key::new("duration_spread", Number(within("", 0.0, 0.3)), "spread of the duration, as a fraction of it").or_number(0.05),
+        Key::new("timing_spread", Number(within("", 0.0, 0.1)), "spread of when the obstacle is passed, as a fraction of the duration")
+            .or_number(0.02),
+        Key::new("shape_spread_m", Number(within("m", 0.0, 1.0)), "spread of where it is passed, per axis").or_number(0.05),
+        Key::new("noise_m", Number(within("m", 0.0, 0.1)), "noise of the position sensor per axis, standard deviation").or_number(0.002),
+    ]
+}
 
 const ROBOT: Shape = Shape::plain(&[
     Key::new("urdf", Path(PathTo::Robot), "the robot's description").or(Preset::Text("builtin:baxter")),
@@ -351,7 +357,7 @@ const HELP: Shape = Shape {
 
 const RECORDING: Shape = Shape::plain(&[
     Key::new("rrd", Flag, "recording.rrd, for the rerun viewer").or(Preset::Flag(true)),
-    Key::new("steps", Flag, "steps.parquet, one row per logged step").or(Preset::Flag(true)),
+    Key::new("steps", Flag, "steps.parquet, one row per logged step; paths.parquet of a planar experiment").or(Preset::Flag(true)),
     Key::new("demonstrations", Flag, "demonstrations/, the dataset that was learned from").or(Preset::Flag(true)),
 ]);
 

@@ -1,6 +1,7 @@
 //! Contract: a drawing is well-formed SVG, everything in it is on the page, every series is there, and no text is lost.
 
-use cpdmp::figure::{Anchor, Axis, Chart, Edge, Figure, Mark, Node, Symbol, covariance_ellipse, ellipse, graph, svg};
+use cpdmp::figure::{Anchor, Axis, Chart, Edge, Figure, Mark, Node, Symbol, graph, svg};
+use cpdmp::math::{covariance_outline, ellipse_outline};
 use cpdmp::palette::{BLACK, BLUE, GREY, ORANGE, VERMILION};
 use nalgebra::Matrix2;
 use roxmltree::{Document, Node as Element};
@@ -10,7 +11,7 @@ fn figure() -> Figure {
     let wave: Vec<[f64; 2]> = (0..200).map(|i| f64::from(i) / 50.0).map(|x| [x, (3.0 * x).sin()]).collect();
     let mut map = Chart::map("A map", [Axis::new("x (m)"), Axis::new("y (m)")]);
     map.marks = vec![
-        Mark::area("obstacle", GREY, 0.5, ellipse([2.0, 0.0], [0.5, 1.0])),
+        Mark::area("obstacle", GREY, 0.5, ellipse_outline([2.0, 0.0], [0.5, 1.0])),
         Mark::line("a <wave> & more", BLUE, 1.5, wave.clone()),
         Mark::dashes("dashes", ORANGE, 1.5, wave.iter().map(|[x, y]| [*x, y + 0.5]).collect()),
         Mark::symbols("hit", VERMILION, Symbol::Cross, 4.0, vec![[1.0, 0.0], [2.0, 0.5]]),
@@ -19,7 +20,7 @@ fn figure() -> Figure {
     let mut plot = Chart::plot("A plot", [Axis::new("time fraction (-)"), Axis::new("forcing (m)")]);
     plot.marks = vec![
         Mark::line("a <wave> & more", BLUE, 1.0, wave),
-        Mark::area("state", ORANGE, 0.2, covariance_ellipse([1.0, 0.5], &Matrix2::new(0.1, 0.05, 0.05, 0.1), 2.0)),
+        Mark::area("state", ORANGE, 0.2, covariance_outline([1.0, 0.5], &Matrix2::new(0.1, 0.05, 0.05, 0.1), 2.0)),
     ];
     let node = |name: &str, x| Node { name: name.into(), at: [x, 0.0], color: ORANGE, legend: "chain 1".into() };
     let edge = |from, to| Edge { from, to, label: "0.98".into(), width_pt: 1.0, color: BLACK };

@@ -3,5 +3,7 @@
 pub mod made_up_run;
 mod path_log;
 #[cfg(feature = "rerun")]
+mod planar_recording;
+#[cfg(feature = "rerun")]
 mod recording_file;
 mod step_log;

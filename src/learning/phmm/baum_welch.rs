@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::forward_backward::expect;
+use super::forward_backward::Recursions;
 use super::maximisation::{Penalty, maximise_state};
 use super::standardisation::Standardisation;
 use super::statistics::{Group, gather};
@@ -37,6 +37,13 @@ impl Run {
     pub(super) fn objective(&self) -> f64 {
         self.history.last().copied().unwrap_or(f64::NEG_INFINITY)
     }
+}
+
+/// What the iterations of one climb use again and again.
+#[derive(Default)]
+struct Memory {
+    recursions: Recursions,
+    expectations: Vec<Expectation>,
 }
 
 /// Standardised data with everything the iterations need.
@@ -98,9 +105,9 @@ impl<'a> Problem<'a> {
     pub(super) fn climb(&self, first: Phmm, parametric: bool, most_iterations: usize) -> Run {
         let penalty = self.penalty(parametric);
         let (mut model, mut history, mut status) = (first, Vec::new(), FitStatus::IterationLimit);
-        let mut kept = model.clone();
+        let (mut kept, mut memory) = (model.clone(), Memory::default());
         for iteration in 0..=most_iterations {
-            let Some((objective, expectations)) = self.expectations(&model, &penalty).filter(|e| e.0.is_finite()) else {
+            let Some(objective) = self.expect(&model, &penalty, &mut memory).filter(|o| o.is_finite()) else {
                 (model, status) = (kept, FitStatus::Degenerate);
                 break;
             };
@@ -116,17 +123,33 @@ impl<'a> Problem<'a> {
             }
             if iteration < most_iterations {
                 kept = model.clone();
-                model = self.maximised(&model, &expectations, &penalty);
+                model = self.maximised(&model, &memory.expectations, &penalty);
             }
         }
         Run { model, history, status }
     }
 
-    pub(super) fn expectations(&self, model: &Phmm, penalty: &Penalty) -> Option<(f64, Vec<Expectation>)> {
-        let expectations: Vec<Expectation> = self.sequences.iter().map(|s| expect(model, s)).collect::<Option<_>>()?;
-        let priors = model.weights.iter().zip(&model.covariances).map(|(w, c)| penalty.log_prior(w, c));
-        let prior: f64 = priors.collect::<Option<Vec<_>>>()?.iter().sum();
-        Some((prior + expectations.iter().map(|e| e.log_likelihood).sum::<f64>(), expectations))
+    /// The expectation step of every sequence, for the parametric model. `None` when a covariance is not positive definite.
+    pub(super) fn expectations(&self, model: &Phmm) -> Option<Vec<Expectation>> {
+        let mut memory = Memory::default();
+        self.expect(model, &self.penalty(true), &mut memory).map(|_| memory.expectations)
+    }
+
+    /// The objective; the expectations are left in the memory.
+    fn expect(&self, model: &Phmm, penalty: &Penalty, memory: &mut Memory) -> Option<f64> {
+        memory.recursions.set(&model.initial, &model.transition);
+        memory.expectations.resize(self.sequences.len(), Expectation::default());
+        let mut objective = 0.0;
+        for (w, c) in model.weights.iter().zip(&model.covariances) {
+            objective += penalty.log_prior(w, c)?;
+        }
+        for (sequence, expectation) in self.sequences.iter().zip(&mut memory.expectations) {
+            if !memory.recursions.expect(model, sequence, expectation) {
+                return None;
+            }
+            objective += expectation.log_likelihood;
+        }
+        Some(objective)
     }
 
     fn maximised(&self, model: &Phmm, expectations: &[Expectation], penalty: &Penalty) -> Phmm {

@@ -5,30 +5,46 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use super::{Phmm, Sequence};
 
 /// Samples that are whitened together: their differences stay in the fastest cache, and the loops over them run on vector units.
-const BLOCK: usize = 64;
+const BLOCK: usize = 8;
 
-/// `ln N(x_t; mu_i(theta), Sigma_i)` of every sample and state, row by row (T x N).
-///
-/// `None` when a covariance is not positive definite.
-pub(super) fn log_densities(model: &Phmm, sequence: &Sequence) -> Option<Vec<f64>> {
-    let (n, d) = (model.states(), model.dimension());
-    let states: Vec<Whitened> = (0..n).map(|i| Whitened::new(model, i, &sequence.theta)).collect::<Option<_>>()?;
-    let mut log_densities = vec![0.0; sequence.samples() * n];
-    let (mut columns, mut centred) = (vec![[0.0; BLOCK]; d], vec![[0.0; BLOCK]; d]);
-    for (rows, out) in sequence.values.chunks(BLOCK * d).zip(log_densities.chunks_mut(BLOCK * n)) {
-        for (t, row) in rows.chunks_exact(d).enumerate() {
-            for (column, x) in columns.iter_mut().zip(row) {
-                column[t] = *x;
+/// Log densities of one sequence; the memory is used again for the next.
+#[derive(Default)]
+pub(super) struct LogDensities {
+    /// `ln N(x_t; mu_i(theta), Sigma_i)` of every sample and state, row by row (T x N).
+    pub(super) values: Vec<f64>,
+    /// The largest of each sample (T).
+    pub(super) largest: Vec<f64>,
+}
+
+impl LogDensities {
+    /// Takes the densities of a sequence; `false` when a covariance is not positive definite.
+    pub(super) fn set(&mut self, model: &Phmm, sequence: &Sequence) -> bool {
+        let (n, d) = (model.states(), model.dimension());
+        let states = (0..n).map(|i| Whitened::new(model, i, &sequence.theta)).collect::<Option<Vec<_>>>();
+        let Some(states) = states else { return false };
+        self.values.resize(sequence.samples() * n, 0.0);
+        self.largest.clear();
+        let (mut columns, mut centred) = (vec![[0.0; BLOCK]; d], vec![[0.0; BLOCK]; d]);
+        for (rows, out) in sequence.values.chunks(BLOCK * d).zip(self.values.chunks_mut(BLOCK * n)) {
+            for (t, row) in rows.chunks_exact(d).enumerate() {
+                for (column, x) in columns.iter_mut().zip(row) {
+                    column[t] = *x;
+                }
             }
-        }
-        for (i, state) in states.iter().enumerate() {
-            let squares = state.squared_distances(&columns, &mut centred);
-            for (row, square) in out.chunks_exact_mut(n).zip(squares) {
-                row[i] = state.log_normaliser - 0.5 * square;
+            let mut largest = [f64::NEG_INFINITY; BLOCK];
+            for (i, state) in states.iter().enumerate() {
+                let densities = state.log_densities(&columns, &mut centred);
+                for (largest, density) in largest.iter_mut().zip(&densities) {
+                    *largest = if *density > *largest { *density } else { *largest };
+                }
+                for (row, density) in out.chunks_exact_mut(n).zip(densities) {
+                    row[i] = density;
+                }
             }
+            self.largest.extend(&largest[..out.len() / n]);
         }
+        true
     }
-    Some(log_densities)
 }
 
 /// One state's Gaussian at one `theta`, with the inverse of its Cholesky factor: `|L^-1 (x - mu)|^2` costs no division.
@@ -52,8 +68,8 @@ impl Whitened {
         })
     }
 
-    /// `|L^-1 (x_t - mu)|^2` of a block of samples, given by columns (d of BLOCK).
-    fn squared_distances(&self, columns: &[[f64; BLOCK]], centred: &mut [[f64; BLOCK]]) -> [f64; BLOCK] {
+    /// `c - |L^-1 (x_t - mu)|^2 / 2` of a block of samples, given by columns (d of BLOCK).
+    fn log_densities(&self, columns: &[[f64; BLOCK]], centred: &mut [[f64; BLOCK]]) -> [f64; BLOCK] {
         for ((centred, column), m) in centred.iter_mut().zip(columns).zip(self.mean.iter()) {
             for (c, x) in centred.iter_mut().zip(column) {
                 *c = x - m;
@@ -71,6 +87,6 @@ impl Whitened {
                 *square += z * z;
             }
         }
-        squares
+        squares.map(|square| self.log_normaliser - 0.5 * square)
     }
 }

@@ -11,7 +11,7 @@ pub(super) const EMPTY: f64 = 1.0;
 impl Problem<'_> {
     /// Expected samples of every state (N); `None` when the model is degenerate.
     pub(super) fn occupancy(&self, model: &Phmm) -> Option<Vec<f64>> {
-        let (_, expectations) = self.expectations(model, &self.penalty(true))?;
+        let expectations = self.expectations(model)?;
         let n = model.states();
         let mut counts = vec![0.0; n];
         for row in expectations.iter().flat_map(|e| e.responsibilities.chunks_exact(n)) {

@@ -130,7 +130,7 @@ impl Problem<'_> {
     }
 
     fn evidence(&self, model: &Phmm) -> Option<Vec<StateEvidence>> {
-        let (_, expectations) = self.expectations(model, &self.penalty(true))?;
+        let expectations = self.expectations(model)?;
         let groups: Vec<Vec<Group>> = self.sequences.iter().zip(&expectations).map(|(s, e)| gather(model, s, e)).collect();
         let phis: Vec<&DVector<f64>> = self.phis.iter().collect();
         let state = |i: usize| {

@@ -15,7 +15,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::emission::log_densities;
+use super::emission::LogDensities;
 use super::{Phmm, Sequence};
 
 /// Smaller scaled values are set to 0: arithmetic with almost-underflown numbers is many times slower.
@@ -25,7 +25,7 @@ const NOTHING: f64 = 1e-290;
 const SMALLEST_SCALED_LIKELIHOOD: f64 = -589.0;
 
 /// The result of the expectation step for one sequence.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Expectation {
     /// Log-likelihood of the sequence.
     pub log_likelihood: f64,
@@ -38,16 +38,24 @@ pub struct Expectation {
 /// Runs the expectation step for one sequence. `None` when a covariance is not positive definite.
 #[must_use]
 pub fn expect(model: &Phmm, sequence: &Sequence) -> Option<Expectation> {
-    let log_b = log_densities(model, sequence)?;
-    let chain = Chain::new(&model.initial, &model.transition);
-    Some(chain.scaled(&log_b).unwrap_or_else(|| chain.in_logarithms(&log_b)))
+    let mut expectation = Expectation::default();
+    Recursions::of(&model.initial, &model.transition).expect(model, sequence, &mut expectation).then_some(expectation)
 }
 
-/// The transitions that exist.
-pub(super) struct Chain {
+/// The transitions that exist, and the memory that the recursions use again for every sequence and model.
+#[derive(Default)]
+pub(super) struct Recursions {
     pub(super) initial: Vec<f64>,
     /// Sorted by `from`, then by `to`.
     pub(super) edges: Vec<Edge>,
+    outward: Outward,
+    /// Expected number of times each outward edge is taken.
+    counts: Vec<f64>,
+    densities: LogDensities,
+    /// `c_t` (T).
+    scales: Vec<f64>,
+    /// Which states something arrives at (T).
+    spans: Vec<Span>,
 }
 
 /// A transition that exists, and its probability.
@@ -58,69 +66,143 @@ pub(super) struct Edge {
     pub(super) probability: f64,
 }
 
-impl Chain {
-    pub(super) fn new(initial: &DVector<f64>, transition: &DMatrix<f64>) -> Self {
-        let n = initial.len();
-        let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to)));
-        let edges = pairs.map(|(from, to)| Edge { from, to, probability: transition[(from, to)] });
-        Self { initial: initial.iter().copied().collect(), edges: edges.filter(|e| e.probability > 0.0).collect() }
+/// The edges by where they start: those of state `i` are `first[i]..first[i + 1]`, each with where it leads and its probability.
+#[derive(Default)]
+struct Outward {
+    first: Vec<usize>,
+    others: Vec<(usize, f64)>,
+}
+
+impl Outward {
+    fn set(&mut self, states: usize, edges: &[Edge]) {
+        self.first.clear();
+        self.first.extend((0..=states).map(|state| edges.partition_point(|edge| edge.from < state)));
+        self.others.clear();
+        self.others.extend(edges.iter().map(|edge| (edge.to, edge.probability)));
     }
 
-    /// The recursions with scaling, from log densities (T x N); `None` when underflow could matter.
-    pub(super) fn scaled(&self, log_b: &[f64]) -> Option<Expectation> {
+    fn of(&self, state: usize) -> Span {
+        self.first[state]..self.first[state + 1]
+    }
+}
+
+/// The states from the first to the last that are not 0; a model that is passed in order has few of them at any time.
+type Span = std::ops::Range<usize>;
+
+fn span(values: &[f64]) -> Span {
+    let first = values.iter().position(|v| *v != 0.0).unwrap_or(0);
+    first..values.iter().rposition(|v| *v != 0.0).map_or(first, |last| last + 1)
+}
+
+impl Recursions {
+    pub(super) fn of(initial: &DVector<f64>, transition: &DMatrix<f64>) -> Self {
+        let mut recursions = Self::default();
+        recursions.set(initial, transition);
+        recursions
+    }
+
+    /// Takes another model's transitions; the memory stays.
+    pub(super) fn set(&mut self, initial: &DVector<f64>, transition: &DMatrix<f64>) {
+        let n = initial.len();
+        self.initial.clear();
+        self.initial.extend(initial.iter());
+        self.edges.clear();
+        for from in 0..n {
+            let to = (0..n).map(|to| Edge { from, to, probability: transition[(from, to)] });
+            self.edges.extend(to.filter(|edge| edge.probability > 0.0));
+        }
+        self.outward.set(n, &self.edges);
+    }
+
+    /// As [`expect`], into an expectation whose memory is used again; whether every covariance is positive definite.
+    pub(super) fn expect(&mut self, model: &Phmm, sequence: &Sequence, out: &mut Expectation) -> bool {
+        let mut densities = std::mem::take(&mut self.densities);
+        let definite = densities.set(model, sequence);
+        if definite && !self.scaled(&mut densities, out) {
+            // The scaled recursion has overwritten the logarithms that it refused.
+            densities.set(model, sequence);
+            *out = self.in_logarithms(&densities.values);
+        }
+        self.densities = densities;
+        definite
+    }
+
+    /// The recursions with scaling; densities are overwritten by scaled ones. `false` when underflow could matter.
+    pub(super) fn scaled(&mut self, densities: &mut LogDensities, out: &mut Expectation) -> bool {
         let n = self.initial.len();
-        let (mut b, mut alpha) = (Vec::with_capacity(log_b.len()), Vec::with_capacity(log_b.len()));
-        let mut c = Vec::with_capacity(log_b.len() / n);
+        out.responsibilities.clear();
+        out.responsibilities.resize(densities.values.len(), 0.0);
+        self.scales.clear();
+        self.spans.clear();
         let (mut scaled_likelihood, mut shifts) = (0.0, 0.0);
-        let mut arriving = self.initial.clone();
-        for log_row in log_b.chunks_exact(n) {
-            let row = alpha.len();
-            shifts += push_shifted(log_row, &arriving, &mut b);
-            alpha.extend(arriving.iter().zip(&b[row..]).map(|(a, b)| a * b));
-            let total: f64 = alpha[row..].iter().sum();
+        let (mut arriving, mut states) = (self.initial.clone(), span(&self.initial));
+        let rows = densities.values.chunks_exact_mut(n).zip(out.responsibilities.chunks_exact_mut(n));
+        for ((b, alpha), shift) in rows.zip(&densities.largest) {
+            shifts += shift;
+            let mut total = 0.0;
+            for ((b, alpha), arriving) in b[states.clone()].iter_mut().zip(&mut alpha[states.clone()]).zip(&arriving[states.clone()]) {
+                *b = if *arriving == 0.0 { 0.0 } else { exponential(*b - shift) };
+                *alpha = arriving * *b;
+                total += *alpha;
+            }
             let scale = total.recip();
-            alpha[row..].iter_mut().for_each(|a| *a = something(*a * scale));
-            c.push(total);
+            alpha[states.clone()].iter_mut().for_each(|a| *a = something(*a * scale));
             scaled_likelihood += total.ln();
             if scaled_likelihood.is_nan() || scaled_likelihood < SMALLEST_SCALED_LIKELIHOOD {
-                return None;
+                return false;
             }
-            arriving.fill(0.0);
-            for edge in &self.edges {
-                arriving[edge.to] += edge.probability * alpha[row + edge.from];
+            self.scales.push(total);
+            self.spans.push(states.clone());
+            states = self.arrive(alpha, states, &mut arriving);
+        }
+        out.log_likelihood = scaled_likelihood + shifts;
+        self.scaled_backward(&densities.values, out);
+        true
+    }
+
+    /// `sum_i alpha_t(i) a_ij`, and the states at which it is not 0.
+    fn arrive(&self, alpha: &[f64], states: Span, arriving: &mut [f64]) -> Span {
+        arriving.fill(0.0);
+        let (mut first, mut last) = (arriving.len(), 0);
+        for state in states.filter(|state| alpha[*state] != 0.0) {
+            for (to, probability) in &self.outward.others[self.outward.of(state)] {
+                arriving[*to] += probability * alpha[state];
+                (first, last) = (first.min(*to), last.max(*to + 1));
             }
         }
-        let transitions = self.scaled_backward(&b, &c, &mut alpha);
-        Some(Expectation { log_likelihood: scaled_likelihood + shifts, responsibilities: alpha, transitions })
+        first.min(last)..last
     }
 
     /// Turns normalised `alpha` into `gamma` (T x N) and sums `xi` (N x N).
-    fn scaled_backward(&self, b: &[f64], c: &[f64], alpha: &mut [f64]) -> DMatrix<f64> {
+    fn scaled_backward(&mut self, b: &[f64], out: &mut Expectation) {
         let n = self.initial.len();
-        let mut counts = vec![0.0; self.edges.len()];
+        self.counts.clear();
+        self.counts.resize(self.edges.len(), 0.0);
         let (mut beta, mut ahead) = (vec![1.0; n], vec![0.0; n]);
-        for t in (0..c.len().saturating_sub(1)).rev() {
-            let scale = c[t + 1].recip();
-            for (a, (b, beta)) in ahead.iter_mut().zip(b[(t + 1) * n..(t + 2) * n].iter().zip(&beta)) {
-                *a = b * beta * scale;
+        for t in (0..self.scales.len().saturating_sub(1)).rev() {
+            let scale = self.scales[t + 1].recip();
+            ahead.fill(0.0);
+            let next = self.spans[t + 1].clone();
+            for (ahead, (b, beta)) in ahead[next.clone()].iter_mut().zip(b[(t + 1) * n..][next.clone()].iter().zip(&beta[next])) {
+                *ahead = b * beta * scale;
             }
-            let row = &mut alpha[t * n..(t + 1) * n];
-            beta.fill(0.0);
-            for (edge, count) in self.edges.iter().zip(&mut counts) {
-                let onward = edge.probability * ahead[edge.to];
-                beta[edge.from] += onward;
-                *count += row[edge.from] * onward;
-            }
-            for (gamma, beta) in row.iter_mut().zip(&mut beta) {
-                *beta = something(*beta);
-                *gamma *= *beta;
+            let row = &mut out.responsibilities[t * n..(t + 1) * n];
+            for state in self.spans[t].clone() {
+                let (own, alpha) = (self.outward.of(state), row[state]);
+                let mut sum = 0.0;
+                for ((to, probability), count) in self.outward.others[own.clone()].iter().zip(&mut self.counts[own]) {
+                    let onward = probability * ahead[*to];
+                    sum += onward;
+                    *count += alpha * onward;
+                }
+                beta[state] = something(sum);
+                row[state] = alpha * beta[state];
             }
         }
-        let mut transitions = DMatrix::zeros(n, n);
-        for (edge, count) in self.edges.iter().zip(counts) {
-            transitions[(edge.from, edge.to)] = count;
+        out.transitions = DMatrix::zeros(n, n);
+        for (edge, count) in self.edges.iter().zip(&self.counts) {
+            out.transitions[(edge.from, edge.to)] = *count;
         }
-        transitions
     }
 }
 
@@ -129,14 +211,11 @@ fn something(value: f64) -> f64 {
     if value < NOTHING { 0.0 } else { value }
 }
 
-/// Appends `exp(x_i - max x)` of the states that can be there at all (`arriving > 0`), 0 for the others, and returns the shift. A state that
-/// nothing arrives at has `alpha = 0` whatever its density, and most exponentials of a chain that is passed in order are saved. The maximum
-/// is over all states, or what is lost would have no bound. A row of `-inf` becomes not-a-number, which ends the scaled recursion.
-fn push_shifted(log_row: &[f64], arriving: &[f64], b: &mut Vec<f64>) -> f64 {
+/// `exp x`, or 0 when it is [`NOTHING`]. Scaled by the largest density of **all** states, or what is lost would have no bound; taken for
+/// states that can be there at all (`arriving > 0`) only, since the others have `alpha = 0` whatever their density: most exponentials of a
+/// chain that is passed in order are saved. A row of `-inf` gives not-a-number, which ends the scaled recursion.
+fn exponential(x: f64) -> f64 {
     /// `ln 1e-290`.
     const NOTHING: f64 = -667.7;
-    let shift = log_row.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let relative = |(x, a): (&f64, &f64)| if *a == 0.0 || x - shift < NOTHING { 0.0 } else { (x - shift).exp() };
-    b.extend(log_row.iter().zip(arriving).map(relative));
-    shift
+    if x < NOTHING { 0.0 } else { x.exp() }
 }

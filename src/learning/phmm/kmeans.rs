@@ -50,13 +50,17 @@ fn seeds(rows: &[&[f64]], clusters: usize, random: &mut ChaCha8Rng) -> Vec<Vec<f
 }
 
 fn move_centres(rows: &[&[f64]], labels: &mut [usize], nearest: &[(usize, f64)], centres: &mut [Vec<f64>]) {
-    let mut far: Vec<usize> = (0..rows.len()).collect();
-    far.sort_by(|a, b| nearest[*a].1.total_cmp(&nearest[*b].1));
-    for cluster in 0..centres.len() {
-        if !labels.contains(&cluster)
-            && let Some(sample) = far.pop()
-        {
-            labels[sample] = cluster;
+    let mut occupied = vec![false; centres.len()];
+    labels.iter().for_each(|label| occupied[*label] = true);
+    if occupied.contains(&false) {
+        let mut far: Vec<usize> = (0..rows.len()).collect();
+        far.sort_by(|a, b| nearest[*a].1.total_cmp(&nearest[*b].1));
+        for cluster in 0..centres.len() {
+            if !labels.contains(&cluster)
+                && let Some(sample) = far.pop()
+            {
+                labels[sample] = cluster;
+            }
         }
     }
     let mut counts = vec![0.0; centres.len()];

@@ -57,10 +57,12 @@ impl Entity {
 macro_rules! entities {
     ($($name:ident $pattern:literal $meaning:literal)+) => {
         $(#[doc = concat!("`", $pattern, "`: ", $meaning, ".")] pub const $name: Entity = Entity { pattern: $pattern, meaning: $meaning };)+
-        /// All kinds of entities.
+        /// All kinds of entities of this recording.
         pub const ENTITIES: &[Entity] = &[$($name),+];
     };
 }
+
+pub(super) use entities;
 
 // Plots draw in the order of the paths: what matters most comes last.
 entities! {

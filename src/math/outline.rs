@@ -7,13 +7,13 @@ const POINTS: usize = 72;
 
 /// The outline of an ellipse with half axes `half` along x and y.
 #[must_use]
-pub fn ellipse(center: [f64; 2], half: [f64; 2]) -> Vec<[f64; 2]> {
+pub fn ellipse_outline(center: [f64; 2], half: [f64; 2]) -> Vec<[f64; 2]> {
     outline(center, Matrix2::from_diagonal(&Vector2::from(half)))
 }
 
 /// The outline on which a Gaussian of this covariance is `deviations` standard deviations away from its centre.
 #[must_use]
-pub fn covariance_ellipse(center: [f64; 2], covariance: &Matrix2<f64>, deviations: f64) -> Vec<[f64; 2]> {
+pub fn covariance_outline(center: [f64; 2], covariance: &Matrix2<f64>, deviations: f64) -> Vec<[f64; 2]> {
     let eigen = SymmetricEigen::new(*covariance);
     let half = eigen.eigenvalues.map(|lambda| deviations * lambda.max(0.0).sqrt());
     outline(center, eigen.eigenvectors * Matrix2::from_diagonal(&half))
@@ -35,11 +35,11 @@ mod tests {
     fn an_outline_lies_at_its_distance() {
         let covariance = Matrix2::new(2.0, 0.7, 0.7, 0.5);
         let inverse = covariance.try_inverse().expect("regular");
-        for point in covariance_ellipse([1.0, -2.0], &covariance, 2.0) {
+        for point in covariance_outline([1.0, -2.0], &covariance, 2.0) {
             let away = Vector2::from(point) - Vector2::new(1.0, -2.0);
             assert!(((away.transpose() * inverse * away)[0].sqrt() - 2.0).abs() < 1e-12);
         }
-        for [x, y] in ellipse([0.0, 0.0], [1.0, 3.0]) {
+        for [x, y] in ellipse_outline([0.0, 0.0], [1.0, 3.0]) {
             assert!((x * x + y * y / 9.0 - 1.0).abs() < 1e-12);
         }
     }

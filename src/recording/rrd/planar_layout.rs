@@ -1,0 +1,114 @@
+//! The layout that the recording of a planar experiment opens with: the plane at the left, a view per method; forcing terms, the transition
+//! graph and the guide at the right.
+
+use rerun::blueprint::components::{BackgroundKind, LinkAxis, PanelState, PlayState};
+use rerun::blueprint::{
+    Blueprint, BlueprintPanel, ContainerLike, GraphView, Grid, Horizontal, SelectionPanel, Spatial2DView, Tabs, TextDocumentView,
+    TimePanel, TimeSeriesView, Vertical, View,
+};
+use rerun::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
+use rerun::external::re_sdk_types::blueprint::archetypes::{Background, PlotLegend, TimeAxis, VisualBounds2D};
+
+use super::blueprint_property::Properties;
+use super::planar_entity::PHASE_INPUT;
+use super::planar_forcing::{AXES, recorded};
+use super::planar_map::bounds;
+use super::planar_recorder::ticks;
+use super::recorder::Fault;
+use super::{palette, planar_graph};
+use crate::planar::{Guidance, Method, PlanarOutcome};
+
+/// The layout with the properties of its views.
+pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties), Fault> {
+    let mut views = Views { properties: Properties::default(), bounds: bounds(outcome), inputs: inputs(outcome) };
+    let mut maps: Vec<ContainerLike> = Vec::new();
+    for guidance in outcome.guidances() {
+        for method in outcome.methods_with(guidance) {
+            maps.push(views.map(guidance, method)?.into());
+        }
+    }
+    // One row for what is told in one way.
+    let columns = outcome.guidances().iter().map(|guidance| outcome.methods_with(*guidance).len()).max().unwrap_or(1);
+    let mut forcing: Vec<ContainerLike> = Vec::new();
+    for (guidance, method) in recorded(outcome) {
+        let axes = AXES.map(|axis| views.forcing(guidance, method, axis));
+        let [x, y] = axes;
+        let name = format!("{}{}", method.title(), told(guidance));
+        forcing.push(Vertical::new([x?.into(), y?.into()]).with_name(name).into());
+    }
+    let mut words: Vec<ContainerLike> = Vec::new();
+    if let Some(transitions) = &outcome.transitions {
+        let graph = GraphView::new("States and chains, the side not told").with_origin("/transitions");
+        words.push(graph.with_visual_bounds(&VisualBounds2D::new(planar_graph::bounds(transitions))).into());
+    }
+    words.push(TextDocumentView::new("How to read").with_origin("/guide").into());
+    let left = Grid::new(maps).with_grid_columns(columns as u32);
+    let right = Vertical::new([Tabs::new(forcing).into(), Tabs::new(words).into()]).with_row_shares(vec![2.2, 1.0]);
+    let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.2, 1.0]))
+        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
+        .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
+        .with_time_panel(
+            TimePanel::new().with_state(PanelState::Collapsed).with_timeline(PHASE_INPUT.name).with_play_state(PlayState::Paused),
+        );
+    Ok((blueprint, views.properties))
+}
+
+/// Makes views and keeps their properties.
+struct Views {
+    properties: Properties,
+    /// What the plane's views show (m): the same in all of them, or they could not be compared.
+    bounds: [[f64; 2]; 2],
+    /// What the plots show, on the timeline.
+    inputs: [i64; 2],
+}
+
+impl Views {
+    fn map(&mut self, guidance: Guidance, method: Method) -> Result<View, Fault> {
+        let own = format!("/map/movements/{}/{}/**", guidance.key(), method.key());
+        let shared = ["/map", "/map/grid", "/map/obstacles", "/map/demonstrations", "/map/goals"].map(str::to_owned);
+        let name = format!("{}{}", method.title(), told(guidance));
+        let view = view(Spatial2DView::new(name).with_origin("/").with_contents(shared.into_iter().chain([own])))?;
+        let [x, y] = self.bounds;
+        let range = Range2D { x_range: x.into(), y_range: [-y[1], -y[0]].into() };
+        self.properties.set(&view, "VisualBounds2D", VisualBounds2D::new(range));
+        let white = palette::rgb(crate::palette::Rgb::new(255, 255, 255));
+        self.properties.set(&view, "Background", Background::new(BackgroundKind::SolidColor).with_color(white));
+        Ok(view)
+    }
+
+    /// A legend of dozens of curves would cover them: the guide names the colours.
+    fn forcing(&mut self, guidance: Guidance, method: Method, axis: &str) -> Result<View, Fault> {
+        let contents = [format!("/forcing/demonstrated/{axis}/**"), format!("/forcing/{}/{}/{axis}/**", guidance.key(), method.key())];
+        let name = format!("Forcing along {axis} (m) over the phase");
+        let view = view(TimeSeriesView::new(name).with_origin("/forcing").with_contents(contents))?;
+        self.properties.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+        // Left to itself the viewer shows a piece around the cursor.
+        let [from, to] = self.inputs;
+        let whole = TimeRange { start: TimeRangeBoundary::Absolute(TimeInt(from)), end: TimeRangeBoundary::Absolute(TimeInt(to)) };
+        self.properties.set(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::Independent).with_view_range(whole));
+        Ok(view)
+    }
+}
+
+/// The least and the greatest phase input, with a little space around, on the timeline.
+fn inputs(outcome: &PlanarOutcome) -> [i64; 2] {
+    let inputs = outcome.forcing.iter().flat_map(|curve| &curve.phase);
+    let [low, high] = inputs.fold([0.0_f64, 1.0_f64], |[low, high], input| [low.min(*input), high.max(*input)]);
+    [ticks(low - 0.02), ticks(high + 0.02)]
+}
+
+/// What stands behind a method's name where it is told different things.
+fn told(guidance: Guidance) -> &'static str {
+    match guidance {
+        Guidance::OneSide => "",
+        Guidance::WithSide => ", side told",
+        Guidance::WithoutSide => ", side not told",
+    }
+}
+
+fn view(built: impl Into<ContainerLike>) -> Result<View, Fault> {
+    match built.into() {
+        ContainerLike::View(view) => Ok(view),
+        _ => Err("rerun made a container where a view was asked for".into()),
+    }
+}

@@ -1,0 +1,149 @@
+//! The plane: obstacles, demonstrations, and the paths of every method (the paper's Figs. 1 to 3).
+
+use rerun::{Color, LineStrips2D, Points2D, Radius, Transform3D};
+
+use super::palette;
+use super::planar_entity::{COLLISIONS, DEMONSTRATIONS, GOALS, GRID, MAP, OBSTACLES, PLACES, TAUGHT, UNSEEN};
+use super::planar_recorder::PlanarRecorder;
+use super::recorder::Fault;
+use crate::math::ellipse_outline;
+use crate::planar::{Case, Ellipse, Guidance, Method, Movement, PlanarOutcome};
+
+/// Lines at whole metres, on white.
+const GRID_COLOR: Color = palette::rgb(crate::palette::Rgb::new(228, 228, 228));
+
+/// Logs everything in the plane.
+pub(super) fn log_map(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Result<(), Fault> {
+    let up = Transform3D::from_mat3x3([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]);
+    recorder.always(MAP.path(), &up)?;
+    recorder.always(GRID.path(), &strips(grid(bounds(outcome)), GRID_COLOR, 0.5))?;
+    let outlines = obstacles(outcome).iter().map(|o| closed(ellipse_outline(o.centre_m, o.half_axes_m))).collect();
+    recorder.always(OBSTACLES.path(), &strips(outlines, palette::IDLE, 1.5))?;
+    let shown = outcome.demonstrations.iter().map(|shown| points(&shown.path_m)).collect();
+    recorder.always(DEMONSTRATIONS.path(), &strips(shown, palette::TAUGHT, 0.7))?;
+    goals(recorder, outcome)?;
+    for guidance in outcome.guidances() {
+        for method in outcome.methods_with(guidance) {
+            Drawn { recorder, outcome, guidance, method }.log()?;
+        }
+    }
+    Ok(())
+}
+
+/// The least and the greatest coordinate on each axis (m) of anything that moves, with a little space around.
+pub(super) fn bounds(outcome: &PlanarOutcome) -> [[f64; 2]; 2] {
+    let shown = outcome.demonstrations.iter().flat_map(|shown| &shown.path_m);
+    let moved = outcome.cases.iter().flat_map(|case| &case.movements).flat_map(|movement| &movement.path_m);
+    let places: Vec<&[f64; 2]> = shown.chain(moved).collect();
+    [0, 1].map(|axis| {
+        let values = places.iter().map(|place| place[axis]).filter(|value| value.is_finite());
+        let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+        let space = 0.05 * (high - low).max(1.0);
+        [low - space, high + space]
+    })
+}
+
+/// One method that is told one thing.
+struct Drawn<'a> {
+    recorder: &'a PlanarRecorder,
+    outcome: &'a PlanarOutcome,
+    guidance: Guidance,
+    method: Method,
+}
+
+impl<'a> Drawn<'a> {
+    fn log(&self) -> Result<(), Fault> {
+        let names = [self.guidance.key(), self.method.key()];
+        let color = palette::rgb(self.method.color());
+        for (entity, taught, width) in [(TAUGHT, true, 0.9), (UNSEEN, false, 2.0)] {
+            let of_kind: Vec<_> = self.movements().filter(|(case, _)| case.taught == taught).collect();
+            let labels = of_kind.iter().map(|(case, _)| case.name.clone());
+            let paths = strips(of_kind.iter().map(|(_, movement)| points(&movement.path_m)).collect(), color, width);
+            self.recorder.always(entity.of(&names), &paths.with_labels(labels).with_show_labels(false))?;
+        }
+        let hits = self.movements().filter(|(_, movement)| movement.collides).filter_map(|(case, movement)| deepest(case, movement));
+        let hits = Points2D::new(points(&hits.collect::<Vec<_>>())).with_colors([palette::PERSON]).with_radii([Radius::new_ui_points(6.0)]);
+        self.recorder.always(COLLISIONS.of(&names), &hits)?;
+        self.places(&names, color)
+    }
+
+    /// Where the movements are at each phase.
+    fn places(&self, names: &[&str], color: Color) -> Result<(), Fault> {
+        let entity = PLACES.of(names);
+        let paths: Vec<&[[f64; 2]]> = self.movements().map(|(_, movement)| movement.path_m.as_slice()).collect();
+        let samples = paths.iter().map(|path| path.len()).min().unwrap_or(0);
+        let inputs: Vec<f64> = (0..samples).map(|t| self.input_at(t as f64 / (samples.max(2) - 1) as f64)).collect();
+        let rows = (0..samples).flat_map(|t| paths.iter().map(move |path| point(&path[t])));
+        let columns = Points2D::update_fields().with_positions(rows).columns(std::iter::repeat_n(paths.len(), samples))?;
+        let look = Points2D::update_fields().with_colors([color]).with_radii([Radius::new_ui_points(4.0)]);
+        self.recorder.always(entity.clone(), &look)?;
+        self.recorder.over_phase(entity, &inputs, columns)
+    }
+
+    fn movements(&self) -> impl Iterator<Item = (&'a Case, &'a Movement)> {
+        let (outcome, method) = (self.outcome, self.method);
+        outcome.cases_with(self.guidance).flat_map(move |case| case.of(method).map(move |movement| (case, movement)))
+    }
+
+    /// The models' phase input at the time fraction `u`: curves are sampled at equal fractions.
+    fn input_at(&self, u: f64) -> f64 {
+        let Some(curve) = self.outcome.forcing.iter().find(|curve| curve.method.is_some() && curve.phase.len() > 1) else { return u };
+        let at = u * (curve.phase.len() - 1) as f64;
+        let before = (at as usize).min(curve.phase.len() - 2);
+        curve.phase[before] + (curve.phase[before + 1] - curve.phase[before]) * (at - before as f64)
+    }
+}
+
+fn goals(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Result<(), Fault> {
+    let mut goals: Vec<([f64; 2], bool)> = Vec::new();
+    for case in &outcome.cases {
+        if goals.iter().all(|(goal, _)| *goal != case.goal_m) {
+            goals.push((case.goal_m, case.taught));
+        }
+    }
+    let colors = goals.iter().map(|(_, taught)| if *taught { palette::IDLE } else { palette::MINIMISES });
+    let places: Vec<[f64; 2]> = goals.iter().map(|(goal, _)| *goal).collect();
+    recorder.always(GOALS.path(), &Points2D::new(points(&places)).with_colors(colors).with_radii([Radius::new_ui_points(4.0)]))
+}
+
+fn obstacles(outcome: &PlanarOutcome) -> Vec<Ellipse> {
+    let mut obstacles: Vec<Ellipse> = Vec::new();
+    for case in &outcome.cases {
+        if !obstacles.contains(&case.obstacle) {
+            obstacles.push(case.obstacle);
+        }
+    }
+    obstacles
+}
+
+/// Lines at whole metres within bounds (m).
+fn grid([x, y]: [[f64; 2]; 2]) -> Vec<Vec<[f32; 2]>> {
+    let whole = |[low, high]: [f64; 2]| low.ceil() as i64..=high.floor() as i64;
+    let upright = whole(x).map(|at| vec![point(&[at as f64, y[0]]), point(&[at as f64, y[1]])]);
+    let level = whole(y).map(|at| vec![point(&[x[0], at as f64]), point(&[x[1], at as f64])]);
+    upright.chain(level).collect()
+}
+
+/// The point of a path that is deepest inside the obstacle (m).
+fn deepest(case: &Case, movement: &Movement) -> Option<[f64; 2]> {
+    let depth = |point: &&[f64; 2]| case.obstacle.signed_distance(**point);
+    movement.path_m.iter().min_by(|a, b| depth(a).total_cmp(&depth(b))).copied()
+}
+
+fn closed(mut outline: Vec<[f64; 2]>) -> Vec<[f32; 2]> {
+    outline.extend(outline.first().copied());
+    points(&outline)
+}
+
+fn points(path: &[[f64; 2]]) -> Vec<[f32; 2]> {
+    path.iter().map(point).collect()
+}
+
+fn point(place: &[f64; 2]) -> [f32; 2] {
+    place.map(|coordinate| coordinate as f32)
+}
+
+/// Lines of one colour, `width` points wide on the screen.
+fn strips(lines: Vec<Vec<[f32; 2]>>, color: Color, width: f32) -> LineStrips2D {
+    LineStrips2D::new(lines).with_colors([color]).with_radii([Radius::new_ui_points(width / 2.0)])
+}

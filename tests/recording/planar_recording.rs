@@ -1,0 +1,119 @@
+//! The recording of a planar experiment: read back by rerun's own decoder it holds the paths, forcing terms and states of the outcome, and
+//! its entities are those that are documented.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+use std::sync::LazyLock;
+
+use cpdmp::planar::{Guidance, Method, PlanarOutcome, TwoSidedObstacleSettings, two_sided_obstacle};
+use cpdmp::recording::planar_entity::{self, ENTITIES, PHASE_INPUT};
+use cpdmp::recording::write_planar_recording;
+use nalgebra::{Matrix2, Vector2};
+use rerun::EntityPath;
+use rerun::external::re_log_encoding::DecoderApp;
+use rerun::external::re_log_types::LogMsg;
+use rerun::log::Chunk;
+
+/// The experiment with small models, and the data of its recording without the layout.
+static RECORDED: LazyLock<(PlanarOutcome, Vec<Chunk>)> = LazyLock::new(|| {
+    let mut settings = TwoSidedObstacleSettings::default();
+    (settings.learning.motion.states, settings.learning.motion.max_iterations) = (4, 20);
+    settings.tpgmm.components = 4;
+    let outcome = two_sided_obstacle(&settings, 0).expect("it can be learned");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("recording.rrd");
+    write_planar_recording(&path, "two_sided_obstacle", 0, &outcome).expect("written");
+    let file = BufReader::new(File::open(&path).expect("there"));
+    let data = DecoderApp::decode_lazy(file).filter_map(|message| match message.expect("it can be decoded") {
+        LogMsg::ArrowMsg(id, message) if id.is_recording() => Some(Chunk::from_arrow_msg(&message).expect("a chunk")),
+        _ => None,
+    });
+    let chunks = data.collect();
+    (outcome, chunks)
+});
+
+/// The rows of scalars of an entity: time on the timeline, values.
+fn scalars(entity: &EntityPath) -> Vec<(i64, Vec<f64>)> {
+    let timeline = rerun::TimelineName::try_new(PHASE_INPUT.name).expect("a good name");
+    let component = rerun::Scalars::descriptor_scalars().component;
+    let of_entity = RECORDED.1.iter().filter(|chunk| chunk.entity_path() == entity && !chunk.is_static());
+    let rows = of_entity.flat_map(|chunk| {
+        let times = chunk.iter_component_indices(timeline, component).map(|(time, _)| time.as_i64());
+        times.zip(chunk.iter_slices::<f64>(component).map(<[f64]>::to_vec)).collect::<Vec<_>>()
+    });
+    rows.collect()
+}
+
+#[test]
+fn forcing_terms_and_states_are_those_of_the_outcome() {
+    let outcome = &RECORDED.0;
+    let curve = outcome.forcing.iter().find(|curve| curve.method == Some(Method::Cpdmp) && !curve.taught).expect("a curve");
+    let situation = curve.theta.iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ");
+    for (axis, name) in ["x", "y"].iter().enumerate() {
+        let names = ["with_side", "cpdmp", name, &situation];
+        let rows = scalars(&planar_entity::CURVE.of(&names));
+        let expected = curve.phase.iter().zip(&curve.forcing_m).map(|(input, f)| ((input * 1e4).round() as i64, vec![f[axis]]));
+        assert_eq!(rows, expected.collect::<Vec<_>>());
+
+        // Every point of an ellipse has the Mahalanobis distance 2: the definition, at times that are rounded to 1e-4 of the phase.
+        let rows = scalars(&planar_entity::GAUSSIANS.of(&names));
+        for (index, state) in curve.states.iter().enumerate() {
+            let c = |a: usize, b: usize| state.covariance[if a == 0 { 0 } else { axis + 1 }][if b == 0 { 0 } else { axis + 1 }];
+            let inverse = Matrix2::new(c(0, 0), c(0, 1), c(1, 0), c(1, 1)).try_inverse().expect("regular");
+            let mean = Vector2::new(state.mean[0], state.mean[axis + 1]);
+            let (mut points, mut off) = (0, 0.0_f64);
+            for (time, values) in &rows {
+                for value in &values[2 * index..2 * index + 2] {
+                    let away = Vector2::new(*time as f64 * 1e-4, *value) - mean;
+                    let inside = away[0].abs() < 1.8 * c(0, 0).sqrt();
+                    assert!(!inside || value.is_finite(), "state {index} at {time}");
+                    if inside {
+                        (points, off) = (points + 1, off.max(((away.transpose() * inverse * away)[0].sqrt() - 2.0).abs()));
+                    }
+                }
+            }
+            assert!(points > 20 && off < 0.02, "state {index} along {name}: {points} points, {off} off");
+        }
+    }
+}
+
+#[test]
+fn dots_move_along_the_paths_of_their_method() {
+    let outcome = &RECORDED.0;
+    let component = rerun::Points2D::descriptor_positions().component;
+    let entity = planar_entity::PLACES.of(&["without_side", "cpdmp_chain"]);
+    let of_entity = RECORDED.1.iter().filter(|chunk| chunk.entity_path() == &entity && !chunk.is_static());
+    let rows: Vec<Vec<[f32; 2]>> = of_entity.flat_map(|chunk| chunk.iter_slices::<[f32; 2]>(component).map(<[_]>::to_vec)).collect();
+    let cases = outcome.cases_with(Guidance::WithoutSide);
+    let paths: Vec<_> = cases.flat_map(|case| case.of(Method::CpdmpChain)).map(|movement| &movement.path_m).collect();
+    assert_eq!(rows.len(), paths[0].len());
+    for (t, row) in rows.iter().enumerate() {
+        assert_eq!(*row, paths.iter().map(|path| path[t].map(|x| x as f32)).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn entities_and_the_timeline_are_those_that_are_documented() {
+    let fits = |entity: &str, pattern: &str| {
+        let same = entity.split('/').zip(pattern.split('/')).all(|(part, pattern)| part == pattern || pattern.starts_with('{'));
+        same && entity.matches('/').count() == pattern.matches('/').count()
+    };
+    let chunks = &RECORDED.1;
+    let found: BTreeSet<String> = chunks.iter().map(|chunk| chunk.entity_path().to_string().trim_start_matches('/').to_owned()).collect();
+    for entity in found.iter().filter(|entity| !entity.starts_with("__")) {
+        assert!(ENTITIES.iter().any(|documented| fits(entity, documented.pattern)), "{entity} is not documented");
+    }
+    for documented in ENTITIES {
+        assert!(found.iter().any(|entity| fits(entity, documented.pattern)), "nothing is logged to {}", documented.pattern);
+    }
+    let timelines: BTreeSet<&str> = chunks.iter().flat_map(|chunk| chunk.timelines().keys().map(|name| name.as_str())).collect();
+    assert_eq!(timelines, [PHASE_INPUT.name].into());
+}
+
+#[test]
+fn a_recording_that_cannot_be_written_names_the_file() {
+    let error = write_planar_recording(Path::new("/nowhere/recording.rrd"), "a", 0, &RECORDED.0).expect_err("no such folder");
+    assert!(error.to_string().contains("/nowhere/recording.rrd"), "{error}");
+}
