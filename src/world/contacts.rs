@@ -23,7 +23,9 @@ pub struct ContactEpisode {
     pub max_depth_m: f64,
     /// Largest normal force (N).
     pub max_force_n: f64,
-    /// Where they touched when that force was largest (m, world).
+    /// When that was (s).
+    pub max_force_time_s: f64,
+    /// Where they touched then (m, world).
     pub point: Point3<f64>,
     pair: (usize, usize),
 }
@@ -69,6 +71,7 @@ impl ContactBook {
                         last_time_s: time_s,
                         max_depth_m: 0.0,
                         max_force_n: 0.0,
+                        max_force_time_s: time_s,
                         point: Point3::origin(),
                         pair: key,
                     });
@@ -80,6 +83,7 @@ impl ContactBook {
             episode.max_depth_m = episode.max_depth_m.max(depth.max(0.0));
             if force > episode.max_force_n {
                 episode.max_force_n = force;
+                episode.max_force_time_s = time_s;
                 episode.point = place(engine, pair).unwrap_or(episode.point);
             }
         }

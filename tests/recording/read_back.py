@@ -22,7 +22,7 @@ SERIES = (
     + [(f"/plots/force/{a}/person", f"human_force_{a}_n") for a in AXES]
     + [(f"/plots/torque/{a}", f"torque_{a}_nm") for a in AXES]
     + [(f"/plots/coupling/{a}", f"coupling_{a}_m") for a in AXES]
-    + [("/plots/beta/beta", "beta"), ("/plots/beta/activation", "activation")]
+    + [("/plots/compliance/beta", "beta"), ("/plots/compliance/activation", "activation")]
     + [("/plots/gripper/commanded", "gripper_command"), ("/plots/gripper/measured", "gripper_opening")]
 )
 
