@@ -77,6 +77,28 @@ pub enum CriterionKind {
         /// In which settings.
         settings: PlanarSettings,
     },
+    /// Nothing touches that the scene does not allow: the robot touches nothing, except with its fingers what can be moved. Value: number of
+    /// touching pairs.
+    NoCollision,
+    /// The arm feels the force that the skill expects. Value: rms difference of the arm's own measured force from the expected one along one
+    /// axis, from the start of the skill to its end (N). Without a force model there is no answer.
+    ExpectedForce {
+        /// The axis: 0, 1, 2 for x, y, z of the world.
+        axis: usize,
+        /// The largest rms difference (N).
+        max_n: f64,
+    },
+    /// An object ends at a place. Value: its distance from there (m).
+    ObjectAt {
+        /// The object's name.
+        object: String,
+        /// The object from whose place at the end the offset counts; the world's origin without one.
+        at: Option<String>,
+        /// The offset, world axes (m).
+        offset_m: [f64; 3],
+        /// The largest distance (m).
+        max_m: f64,
+    },
     /// The tool ends at the skill's goal, as learned for the setting. Value: the distance (m).
     GoalReached {
         /// The largest distance allowed (m).

@@ -1,5 +1,6 @@
 //! Answers a scenario's criteria.
 
+use super::judge_objects::{expected_force, no_collision, object_at};
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
@@ -20,7 +21,7 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    fn at_most(value: f64, limit: f64, unit: &'static str) -> Self {
+    pub(super) fn at_most(value: f64, limit: f64, unit: &'static str) -> Self {
         Self { passed: value <= limit, value, limit, unit, first_failed_time_s: None }
     }
 
@@ -42,7 +43,7 @@ impl Answer {
         }
     }
 
-    fn first_failed(mut self, time_s: Option<f64>) -> Self {
+    pub(super) fn first_failed(mut self, time_s: Option<f64>) -> Self {
         self.first_failed_time_s = time_s;
         self
     }
@@ -61,6 +62,9 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
             (Answer::at_least(f64::NAN, *min_m, "m"), false)
         }
         CriterionKind::PlanarCollides { .. } => (Answer::at_least(f64::NAN, 1.0, "settings"), false),
+        CriterionKind::NoCollision => (no_collision(outcome), true),
+        CriterionKind::ExpectedForce { axis, max_n } => (expected_force(outcome, *axis, *max_n), true),
+        CriterionKind::ObjectAt { object, at, offset_m, max_m } => (object_at(outcome, object, at.as_deref(), *offset_m, *max_m), true),
         CriterionKind::GoalReached { max_m } => (goal_reached(outcome, *max_m), true),
         CriterionKind::HumanForce { max_n } => (human_force(outcome, *max_n), true),
         CriterionKind::ComplianceWindow { stiff_at } => (compliance_window(steps, experiment, stiff_at), false),
@@ -88,7 +92,7 @@ fn object_in_container(outcome: &RunOutcome, experiment: &Experiment, object: &s
 /// Half the inner width (m) and the height of the rim above the container's origin (m).
 fn container_size(container: &Object) -> (f64, f64) {
     match &container.kind {
-        ObjectKind::Basket { inner_size_m, wall_height_m, wall_thickness_m } => {
+        ObjectKind::Basket { inner_size_m, wall_height_m, wall_thickness_m, .. } => {
             (inner_size_m.min() / 2.0, wall_height_m + wall_thickness_m)
         }
         _ => (0.0, 0.0),

@@ -2,6 +2,7 @@
 
 mod criterion;
 mod judge;
+mod judge_objects;
 mod judge_planar;
 mod place;
 mod windows;

@@ -1,9 +1,10 @@
 //! Where in a scenario file something is written.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A place in a scenario file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Place {
     /// The file, as the user named it.
     pub file: String,

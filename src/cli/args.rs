@@ -44,6 +44,12 @@ pub(super) enum Command {
     List(Folders),
     /// Explain exit codes and the codes of faults
     Explain(Code),
+    /// Print the JSON Schema of a file format: editors complete and check files with it
+    Schema(FileFormat),
+    /// Print the completions of a shell
+    Completions(Shell),
+    /// Print the manual page, or write those of all commands to a folder with --out
+    Man,
 }
 
 /// What is run, and who watches.
@@ -98,6 +104,43 @@ pub(super) struct Folders {
 pub(super) struct Code {
     /// An exit code (`10`), its name (`criteria_not_met`), or the code of a fault (`unknown_key`); all of them without one
     pub code: Option<String>,
+}
+
+/// Of what a schema is asked.
+#[derive(Debug, Args)]
+pub(super) struct FileFormat {
+    /// Which format; all of them are listed without one
+    #[arg(value_enum)]
+    pub name: Option<SchemaName>,
+}
+
+/// A file format with a JSON Schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum SchemaName {
+    /// Scenario files.
+    Scenario,
+    /// Settings of learning for `cpdmp learn --settings`.
+    Learning,
+    /// The `dataset.toml` of a dataset.
+    Dataset,
+    /// The `skill.json` of a run, or of `cpdmp learn`.
+    Skill,
+    /// The `report.json` of a run.
+    Report,
+    /// The `manifest.json` of a run.
+    Manifest,
+    /// What `cpdmp check --format json` prints.
+    Check,
+    /// What `cpdmp learn --format json` prints.
+    Learn,
+}
+
+/// For which shell.
+#[derive(Debug, Args)]
+pub(super) struct Shell {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
 }
 
 /// What every command understands. A flag wins over the environment, that over the scenario, that over the default.

@@ -92,6 +92,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         | SimulationError::JointCounts(_)
         | SimulationError::World(_)
         | SimulationError::Scene(_)
+        | SimulationError::Wrench(_)
         | SimulationError::Mismatch(_) => Outcome::InvalidInput,
     }
 }

@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::learning_args::{Learn, Theta};
 use super::terminal::Terminal;
 use crate::demonstration::{Dataset, Import, ParameterSource};
-use crate::learning::selection::{StatesSearch, cross_validate, reproduction};
+use crate::learning::selection::{cross_validate, reproduction};
 use crate::learning::{self, LearningError, LearningSettings, Skill};
 use crate::report::{LearnReport, Outcome, Replaceable, prepare_file, replace_file};
 use crate::scenario::{Diagnostic, LearningOptions, learning_settings};
@@ -76,20 +76,13 @@ fn settings(arguments: &Learn, global: &Global) -> Result<(LearningSettings, Vec
         ("--tolerance", "motion.tolerance", &arguments.tolerance),
         ("--tolerance", "force.tolerance", &arguments.tolerance),
     ];
-    let automatic = |value: &Option<String>| value.as_deref() == Some("auto");
-    let chosen_from_data = |flag: &str| ["--states", "--ridge"].contains(&flag);
-    let given = typed.into_iter().filter(|(flag, _, value)| !(automatic(value) && chosen_from_data(flag)));
-    let mut flags: Vec<_> = given.filter_map(|(flag, key, value)| Some((flag, key, value.clone()?))).collect();
+    let mut flags: Vec<_> = typed.into_iter().filter_map(|(flag, key, value)| Some((flag, key, value.clone()?))).collect();
     if arguments.baseline {
         flags.push(("--baseline", "shaping", "lwr".to_owned()));
     }
     let options = LearningOptions { file: arguments.settings.clone(), set: global.set.clone(), flags };
     let (mut settings, odd) = learning_settings(&options)?;
     settings.align |= arguments.align;
-    settings.automatic_ridge |= automatic(&arguments.ridge);
-    if automatic(&arguments.states) {
-        settings.states_search = Some(StatesSearch::default());
-    }
     Ok((settings, odd))
 }
 

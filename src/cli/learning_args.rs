@@ -14,14 +14,14 @@ pub(super) struct Learn {
     /// Number of states of the motion model, or `auto`: the one that predicts best what is left out
     #[arg(long, value_name = "N")]
     pub states: Option<String>,
-    /// Number of states of the force model
+    /// Number of states of the force model, or `auto`
     #[arg(long, value_name = "N")]
     pub force_states: Option<String>,
     /// Stiffness K of the movement primitive
     #[arg(long, value_name = "K")]
     pub stiffness: Option<String>,
-    /// Strength of the prior W = 0 of both models, as a number of demonstrations; or `auto`: that of the motion model is the one that
-    /// predicts best what is left out
+    /// Strength of the prior W = 0 of both models, as a number of demonstrations; or `auto`: for each model the one that predicts best
+    /// what is left out
     #[arg(long, value_name = "X")]
     pub ridge: Option<String>,
     /// What the motion model sees of the parameters: linear, quadratic or rbf

@@ -5,6 +5,7 @@
 
 mod args;
 mod check;
+mod completions;
 mod explain;
 mod failure;
 mod figure_files;
@@ -18,9 +19,11 @@ mod learn;
 mod learning_args;
 mod list;
 mod load;
+mod man;
 mod planar_files;
 mod progress;
 mod run;
+mod schema;
 mod select;
 mod terminal;
 mod validate;
@@ -67,6 +70,9 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
         Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),
+        Command::Schema(arguments) => schema::schema(arguments.name, &terminal),
+        Command::Completions(arguments) => completions::completions(arguments.shell, &terminal),
+        Command::Man => man::man(cli.global.out.as_deref(), &terminal),
     };
     outcome.max(terminal.outcome())
 }

@@ -1,6 +1,6 @@
 //! The controller's knowledge of its arm: kinematics and dynamics with their buffers.
 
-use nalgebra::{Isometry3, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
 
 use crate::robot::{ChainError, ChainState, FollowSettings, IkOutcome, IkSettings, InverseKinematics, RobotModel, SerialChain};
 
@@ -51,6 +51,16 @@ impl ArmModel {
     pub fn tool_pose(&mut self, q: &[f64]) -> Isometry3<f64> {
         self.chain.forward_kinematics(q, &mut self.state);
         self.state.tip_pose()
+    }
+
+    /// The Jacobian at the tool point (6 x n, base axes) at the angles of the last [`Self::tool_pose`].
+    pub fn jacobian(&self) -> &Matrix6xX<f64> {
+        self.state.jacobian()
+    }
+
+    /// Twist of the tool (m/s, rad/s, base axes) at `v` (rad/s), at the angles of the last [`Self::tool_pose`].
+    pub fn tool_twist(&self, v: &[f64]) -> Vector6<f64> {
+        self.chain.tip_twist(v, &self.state)
     }
 
     /// Finds joint angles for `base_from_tool`, starting at the rest posture; `q` holds the best posture met.

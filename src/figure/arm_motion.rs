@@ -16,25 +16,26 @@ const POINTS: usize = 80;
 const AXES: [(&str, &str); 3] = [("x", "x: forwards"), ("y", "y: to the left"), ("z", "z: upwards")];
 
 /// One panel per axis: taught, planned and executed motion of the tool, and every state as an ellipse that is as wide as the state is long
-/// and as high as the demonstrations disagree in it, at two standard deviations each.
+/// and as high as the demonstrations disagree in it, at two standard deviations each. A skill of the joints has neither plan nor states there.
 #[must_use]
 pub fn arm_motion(run: &ArmRun) -> Figure {
-    let panels = (0..3).filter_map(|axis| panel(run, axis)).collect();
+    let panels = (0..3).map(|axis| panel(run, axis)).collect();
     Figure { title: format!("Motion of the tool: {}", run.name), panels, columns: 1, panel_size_pt: PANEL_PT }
 }
 
-fn panel(run: &ArmRun, axis: usize) -> Option<Chart> {
+fn panel(run: &ArmRun, axis: usize) -> Chart {
     let (name, title) = AXES[axis];
     let column = format!("{name}_m");
-    let planned = run.planned(&column)?;
     let mut chart = Chart::plot(title, [Axis::new("time (s)"), Axis::new(&format!("{name} (m)"))]);
     chart.marks.extend(run.compliant_windows());
     chart.marks.extend(run.taught(&column).into_iter().map(|taught| Mark::line("taught", TAUGHT, 0.6, taught)));
-    let of_column = run.skill.motion.columns.iter().position(|known| *known == column)?;
-    chart.marks.extend(run.states.iter().map(|state| ellipse(run, state, of_column, &planned)));
-    chart.marks.push(Mark::line("planned", PLANNED, 1.6, planned));
+    let of_column = run.skill.motion.columns.iter().position(|known| *known == column);
+    if let (Some(of_column), Some(planned)) = (of_column, run.planned(&column)) {
+        chart.marks.extend(run.states.iter().map(|state| ellipse(run, state, of_column, &planned)));
+        chart.marks.push(Mark::line("planned", PLANNED, 1.6, planned));
+    }
     chart.marks.push(Mark::line("executed", EXECUTED, 1.6, run.executed(|step| step.tool.translation.vector[axis])));
-    Some(chart)
+    chart
 }
 
 /// The outline of a state, carried along the planned coordinate `m`: `x = m(t) + k sigma_x sin(a)` at `t = t_i + k sigma_t cos(a)`. Its

@@ -2,16 +2,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::automatic::{filled_in, force_features, motion_features, seen_force, seen_motion, thetas};
 use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
 use super::ends::{Ends, EndsReport, ends};
 use super::orientation::OrientationSample;
 use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit, refine};
 use super::prepare::{Prepared, prepare};
-use super::selection::{RidgeChoice, StatesChoice, choose_ridge, choose_states};
 use super::{
-    FeatureMap, GripperProfile, LearningError, LearningReport, LearningSettings, OrientationProfile, ParameterSpace, ShapingKind, Skill,
-    warnings,
+    GripperProfile, LearningError, LearningReport, LearningSettings, OrientationProfile, ParameterSpace, ShapingKind, Skill, warnings,
 };
 use crate::demonstration::Dataset;
 
@@ -49,9 +48,9 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     let aligned = settings.align.then(|| dataset.aligned()).transpose()?;
     let (dataset, alignment_shifts_s) = aligned.as_ref().map_or((dataset, Vec::new()), |a| (&a.dataset, a.shifts_s.clone()));
     let prepared = prepare(dataset, settings)?;
-    let (settings, states_choice, ridge_choice) = match first {
-        Some(_) => (settings.clone(), None, None),
-        None => chosen(&prepared, settings, seed)?,
+    let (settings, [motion_choices, force_choices]) = match first {
+        Some(_) => (settings.clone(), Default::default()),
+        None => filled_in(&prepared, settings, seed)?,
     };
     let settings = &settings;
     let mut warnings = warnings::about_data(dataset, &prepared);
@@ -78,26 +77,7 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max()));
     let theta = prepared.iter().map(|p| &p.theta_m).sum::<DVector<f64>>() / prepared.len() as f64;
     let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), noise.iter().copied().collect(), warnings)?;
-    Ok(Learned { skill, report: LearningReport { ends, alignment_shifts_s, states_choice, ridge_choice, ..report } })
-}
-
-/// The settings with everything filled in that they leave to the data: first the states, then the ridge for so many.
-fn chosen(
-    prepared: &[Prepared],
-    settings: &LearningSettings,
-    seed: u64,
-) -> Result<(LearningSettings, Option<StatesChoice>, Option<RidgeChoice>), LearningError> {
-    let mut settings = settings.clone();
-    if settings.shaping == ShapingKind::Lwr {
-        return Ok((settings, None, None));
-    }
-    let features = motion_features(prepared, &settings, seed);
-    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(&settings).seen_through(&features)).collect();
-    let states = settings.states_search.map(|search| choose_states(&sequences, &settings.motion, search, seed)).transpose()?;
-    settings.motion.states = states.as_ref().map_or(settings.motion.states, |choice| choice.states);
-    let ridge = settings.automatic_ridge.then(|| choose_ridge(&sequences, &settings.motion, seed)).transpose()?;
-    settings.motion.ridge = ridge.as_ref().map_or(settings.motion.ridge, |choice| choice.ridge);
-    Ok((settings, states, ridge))
+    Ok(Learned { skill, report: LearningReport { ends, alignment_shifts_s, motion_choices, force_choices, ..report } })
 }
 
 type MotionFit = (Shaping, Option<Fit>, Compliance);
@@ -116,8 +96,7 @@ fn motion_fit(
         let lwr = Lwr::fit(&phases, &DMatrix::from_rows(&all), settings.lwr_basis, settings.alpha)?;
         return Ok((Shaping::Lwr(lwr), None, Compliance::stiff(0, d)));
     }
-    let features = motion_features(prepared, settings, seed);
-    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.motion_sequence(settings).seen_through(&features)).collect();
+    let sequences = seen_motion(prepared, settings, &motion_features(prepared, settings, seed));
     let first = first.and_then(|skill| skill.motion.shaping.phmm());
     let fit = fit_from(first, &sequences, &settings.motion, seed)?;
     let noise = forcing_noise(prepared).max();
@@ -136,14 +115,13 @@ fn force_fit(
     if dataset.wrench.is_empty() || settings.shaping == ShapingKind::Lwr {
         return Ok(None);
     }
-    let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_f.clone()).collect();
-    let features = FeatureMap::of(settings.force.features, &thetas, seed);
-    let sequences: Vec<Sequence> = prepared.iter().map(|p| p.force_sequence(settings).seen_through(&features)).collect();
+    let features = force_features(prepared, settings, seed);
+    let sequences = seen_force(prepared, settings, &features);
     let first = first.and_then(|skill| skill.force.as_ref()).map(|force| &force.phmm);
     let fit = fit_from(first, &sequences, &settings.force, seed)?;
     let model = ForceModel {
         columns: dataset.wrench.clone(),
-        parameters: ParameterSpace::of(dataset.parameters_f(), &thetas).with_features(features),
+        parameters: ParameterSpace::of(dataset.parameters_f(), &thetas(prepared, |p| &p.theta_f)).with_features(features),
         phase_input: settings.phase_input,
         phmm: fit.model.clone(),
         evidence: fit.evidence.clone(),
@@ -192,9 +170,8 @@ fn motion_model(
     shaping: Shaping,
     seed: u64,
 ) -> Result<(MotionModel, Option<EndsReport>), LearningError> {
-    let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_m.clone()).collect();
     let features = motion_features(prepared, settings, seed);
-    let parameters = ParameterSpace::of(dataset.parameters_m(), &thetas).with_features(features);
+    let parameters = ParameterSpace::of(dataset.parameters_m(), &thetas(prepared, |p| &p.theta_m)).with_features(features);
     let Ends { start, goal, report } = ends(dataset, prepared, &parameters, settings.shaping == ShapingKind::Lwr)?;
     let model = MotionModel {
         stiffness: settings.stiffness,
@@ -210,15 +187,6 @@ fn motion_model(
         evidence: Vec::new(),
     };
     Ok((model, report))
-}
-
-/// The features of `theta_m`; linear for the baseline, which is blind to parameters.
-fn motion_features(prepared: &[Prepared], settings: &LearningSettings, seed: u64) -> FeatureMap {
-    if settings.shaping == ShapingKind::Lwr {
-        return FeatureMap::Linear;
-    }
-    let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| p.theta_m.clone()).collect();
-    FeatureMap::of(settings.motion.features, &thetas, seed)
 }
 
 fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Option<OrientationProfile> {

@@ -9,6 +9,7 @@
 //! Rooms inside: [`dmp`] (the primitive and its baseline), [`phmm`] (the parametric hidden Markov model), [`cpdmp`] (what joins them),
 //! [`tpgmm`] (the rival).
 
+mod automatic;
 pub mod cpdmp;
 pub mod dmp;
 mod ends;
@@ -35,6 +36,7 @@ pub use ends::{EndRule, EndsReport};
 pub use error::{LearningError, SettingFault};
 pub use execution::{
     ExecutionSettings, Measured, PhaseStopping, SkillExecution, SkillState, StepInput, TaskSpaceState, generate, task_space_states,
+    wrench_columns,
 };
 pub use features::{FeatureMap, Features, Standard};
 pub use gmr::Gmr;
@@ -48,4 +50,4 @@ pub use prepare::motion_sequences;
 pub use report::{FitReport, LearningReport, StateReport};
 pub use settings::{LearningSettings, ShapingKind};
 use skill::selection as parameter_selection;
-pub use skill::{Request, Skill};
+pub use skill::{Request, Skill, skill_schema};

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::cpdmp::{Shaping, Statistic, compliance_windows, segments};
 use super::phmm::{Fit, FitStatus, StartReport};
-use super::selection::{RidgeChoice, StatesChoice};
+use super::selection::Choices;
 use super::{EndsReport, LearningError, Skill};
 
 /// How one model was fitted.
@@ -60,10 +60,10 @@ pub struct LearningReport {
     pub forcing_noise: Vec<f64>,
     /// The largest shift in time of each demonstration by the alignment (s); empty without one.
     pub alignment_shifts_s: Vec<f64>,
-    /// How the number of states was chosen, when it was.
-    pub states_choice: Option<StatesChoice>,
-    /// How the ridge was chosen, when it was.
-    pub ridge_choice: Option<RidgeChoice>,
+    /// What the demonstrations chose of the motion model.
+    pub motion_choices: Choices,
+    /// What the demonstrations chose of the force model.
+    pub force_choices: Choices,
     /// How the end that the parameters leave open is predicted, when the parameters are the start or the goal themselves.
     pub ends: Option<EndsReport>,
     /// What a person should know: rank, compliance of none or all, gaps.
@@ -110,8 +110,8 @@ impl LearningReport {
             windows_s: windows.iter().map(|w| [w.start * duration, w.end * duration]).collect(),
             forcing_noise,
             alignment_shifts_s: Vec::new(),
-            states_choice: None,
-            ridge_choice: None,
+            motion_choices: Choices::default(),
+            force_choices: Choices::default(),
             ends: None,
             warnings,
         })

@@ -3,7 +3,7 @@
 use super::cpdmp::ComplianceSettings;
 use super::dmp::{DEFAULT_ALPHA, PhaseInput};
 use super::phmm::PhmmSettings;
-use super::selection::StatesSearch;
+use super::selection::{Selection, StatesSearch};
 use super::{LearningError, SettingFault};
 
 /// What stands for the forcing term.
@@ -48,10 +48,10 @@ pub struct LearningSettings {
     pub orientation_basis: usize,
     /// Whether demonstrations are brought to one timing before they are learned from, by one warp each for all columns. Default no.
     pub align: bool,
-    /// Whether the motion model's ridge is chosen by leaving demonstrations out, instead of taken from `motion.ridge`. Default no.
-    pub automatic_ridge: bool,
-    /// Whether, and how, the motion model's number of states is chosen, instead of taken from `motion.states`. Default no.
-    pub states_search: Option<StatesSearch>,
+    /// What of the motion model is chosen from the data. Default nothing: `motion` says it.
+    pub motion_selection: Selection,
+    /// What of the force model is chosen from the data. Default nothing: `force` says it.
+    pub force_selection: Selection,
 }
 
 impl Default for LearningSettings {
@@ -71,8 +71,8 @@ impl Default for LearningSettings {
             compliance: ComplianceSettings::default(),
             orientation_basis: 40,
             align: false,
-            automatic_ridge: false,
-            states_search: None,
+            motion_selection: Selection::default(),
+            force_selection: Selection::default(),
         }
     }
 }
@@ -95,9 +95,9 @@ impl LearningSettings {
         check("gate_start", self.gate_start, 0.5, 0.999, "of the duration");
         check("lwr_basis", self.lwr_basis as f64, 2.0, 1000.0, "functions");
         check("orientation_basis", self.orientation_basis as f64, 2.0, 500.0, "functions");
-        if let Some(StatesSearch { min, max, .. }) = self.states_search {
-            check("motion.states_min", min as f64, 1.0, 200.0, "");
-            check("motion.states_max", max as f64, min as f64, 200.0, "(at least states_min)");
+        for StatesSearch { min, max, .. } in [self.motion_selection, self.force_selection].iter().filter_map(|selection| selection.states) {
+            check("states_min", min as f64, 1.0, 200.0, "");
+            check("states_max", max as f64, min as f64, 200.0, "(at least states_min)");
         }
         faults.extend(self.motion.faults("motion"));
         faults.extend(self.force.faults("force"));

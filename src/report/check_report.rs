@@ -1,5 +1,6 @@
 //! What `cpdmp check` found: one report for all scenarios, from which every format is written.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{CollisionReport, CriterionReport, Outcome, RunReport};
@@ -8,7 +9,7 @@ use super::{CollisionReport, CriterionReport, Outcome, RunReport};
 const SCHEMA_VERSION: u32 = 1;
 
 /// Everything that one call of `check` has to say. Keys are only ever added.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CheckReport {
     /// Version of this format.
     pub schema_version: u32,
@@ -25,7 +26,7 @@ pub struct CheckReport {
 }
 
 /// One scenario that was checked.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Checked {
     /// What was checked, as the user named it.
     pub path: String,
@@ -42,7 +43,7 @@ pub struct Checked {
 }
 
 /// Something wrong or odd about a file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct InputFault {
     /// Its code, which `cpdmp explain` knows.
     pub code: String,

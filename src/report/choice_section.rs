@@ -1,14 +1,16 @@
 //! What learning chose from the data, with the curve it was chosen from.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::figure;
 use crate::learning::LearningReport;
+use crate::learning::selection::Choices;
 
 /// One setting that was chosen.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ChoiceSection {
-    /// Which setting: `motion.states` or `motion.ridge`.
+    /// Which setting: `motion.states`, `motion.ridge`, `force.states` or `force.ridge`.
     pub setting: &'static str,
     /// What was chosen.
     pub chosen: f64,
@@ -17,7 +19,7 @@ pub struct ChoiceSection {
 }
 
 /// One candidate.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Candidate {
     /// Its value.
     pub value: f64,
@@ -28,18 +30,24 @@ pub struct Candidate {
 impl ChoiceSection {
     /// Every choice that learning made.
     pub fn of(report: &LearningReport) -> Vec<Self> {
+        let motion = Self::of_model(&report.motion_choices, ["motion.states", "motion.ridge"]);
+        motion.chain(Self::of_model(&report.force_choices, ["force.states", "force.ridge"])).collect()
+    }
+
+    /// The choices for one model, whose number of states and ridge are called by these names.
+    fn of_model(choices: &Choices, [states, ridge]: [&'static str; 2]) -> impl Iterator<Item = Self> {
         let candidate = |value: f64, score: f64| Candidate { value, score: Some(score).filter(|score| score.is_finite()) };
-        let states = report.states_choice.iter().map(|choice| Self {
-            setting: "motion.states",
+        let states = choices.states.iter().map(move |choice| Self {
+            setting: states,
             chosen: choice.states as f64,
             curve: choice.curve.iter().map(|one| candidate(one.states as f64, one.score)).collect(),
         });
-        let ridge = report.ridge_choice.iter().map(|choice| Self {
-            setting: "motion.ridge",
+        let ridge = choices.ridge.iter().map(move |choice| Self {
+            setting: ridge,
             chosen: choice.ridge,
             curve: choice.curve.iter().map(|one| candidate(one.ridge, one.error)).collect(),
         });
-        states.chain(ridge).collect()
+        states.chain(ridge)
     }
 
     /// The choice as a line of text.

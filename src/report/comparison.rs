@@ -1,12 +1,13 @@
 //! What several methods made of the same settings, side by side: plain data, and a table of it for people.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::figure;
 use crate::planar::{Case, Guidance, Method, Movement, PlanarOutcome};
 
 /// Methods beside each other.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ComparisonReport {
     /// Every setting, with what each method made of it.
     pub settings: Vec<SettingReport>,
@@ -15,7 +16,7 @@ pub struct ComparisonReport {
 }
 
 /// One setting.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SettingReport {
     /// Its name.
     pub name: String,
@@ -34,7 +35,7 @@ pub struct SettingReport {
 }
 
 /// One movement of one method in one setting.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MovementReport {
     /// The method.
     pub method: &'static str,
@@ -53,7 +54,7 @@ pub struct MovementReport {
 }
 
 /// One method over all settings.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MethodSummary {
     /// The method.
     pub method: &'static str,

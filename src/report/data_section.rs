@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::{figure, table};
 use crate::demonstration::{Dataset, Demonstration};
 
 /// What a dataset holds.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DataSection {
     /// Columns of the motion model.
     pub motion: Vec<String>,
@@ -23,7 +24,7 @@ pub struct DataSection {
 }
 
 /// One demonstration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DemonstrationRow {
     /// Its name.
     pub name: String,
@@ -44,7 +45,7 @@ pub struct DemonstrationRow {
 }
 
 /// One column of a demonstration.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ColumnRow {
     /// First value.
     pub first: f64,

@@ -1,12 +1,13 @@
 //! How far a skill is from demonstrations, as `learn` tells it.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::{figure, table};
 use crate::learning::selection::{CrossValidation, ErrorSize, MovementError, Reproduction};
 
 /// The error of one movement against one demonstration, at equal time fractions.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ErrorRow {
     /// The demonstration; none for all of them together.
     pub demonstration: Option<String>,
@@ -23,7 +24,7 @@ pub struct ErrorRow {
 }
 
 /// One demonstration, predicted by skills that were learned without it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ValidationRow {
     /// The demonstration.
     pub demonstration: String,
@@ -40,7 +41,7 @@ pub struct ValidationRow {
 }
 
 /// A whole cross-validation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ValidationSection {
     /// How many groups were left out in turn.
     pub folds: usize,

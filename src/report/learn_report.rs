@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{ChoiceSection, DataSection, ErrorRow, FitSection, Outcome, SkillSection, ValidationSection};
@@ -10,7 +11,7 @@ use crate::learning::selection::{CrossValidation, Reproduction};
 use crate::learning::{Learned, LearningError};
 
 /// The whole report; `--format json` prints it on one line.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LearnReport {
     /// Version of this format.
     pub schema_version: u32,

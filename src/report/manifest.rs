@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use twox_hash::XxHash3_64;
 
@@ -9,7 +10,7 @@ use twox_hash::XxHash3_64;
 pub(super) const FORMAT: &str = "cpdmp-run";
 
 /// What a run was made from.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Manifest {
     /// Always `cpdmp-run`.
     pub format: &'static str,
@@ -38,7 +39,7 @@ pub struct Manifest {
 }
 
 /// One file that decides a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FileHash {
     /// Its path, as the scenario names it.
     pub path: PathBuf,
@@ -49,7 +50,7 @@ pub struct FileHash {
 }
 
 /// The machine that ran it. Equal hashes are promised for equal architectures.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Host {
     /// Operating system.
     pub os: &'static str,

@@ -22,6 +22,7 @@ mod robot_section;
 mod run_folder;
 mod run_report;
 mod run_section;
+mod schemas;
 mod sections;
 mod skill_section;
 mod table;
@@ -47,5 +48,6 @@ pub use run_report::{
     RunReport, Window,
 };
 pub use run_section::{CriterionLine, FileLine, RunSection};
+pub use schemas::{check_schema, learn_schema, manifest_schema, report_schema};
 pub use skill_section::{FitSection, ParameterRange, SkillSection, StateRow};
 pub use text::text;

@@ -1,12 +1,13 @@
 //! What a robot's file holds, for people and for other programs.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::{figure, table};
 use crate::robot::{Joint, JointKind, Loaded};
 
 /// A robot as its file tells it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RobotSection {
     /// Its name.
     pub name: String,
@@ -23,7 +24,7 @@ pub struct RobotSection {
 }
 
 /// One joint that moves; rad, rad/s and N m for one that turns, m, m/s and N for one that slides.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct JointLine {
     /// Its name.
     pub name: String,

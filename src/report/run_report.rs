@@ -1,5 +1,6 @@
 //! `report.json`: everything a run has to say, as plain data.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{ComparisonReport, Outcome};
@@ -12,7 +13,7 @@ use crate::simulation::{Experiment, RunOutcome};
 const SCHEMA_VERSION: u32 = 1;
 
 /// The report of one run. Keys are only ever added; a number that does not exist is `null`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RunReport {
     /// Version of this format.
     pub schema_version: u32,
@@ -59,7 +60,7 @@ pub struct RunReport {
 }
 
 /// One task parameter.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ParameterReport {
     /// Its name, which ends in its unit.
     pub name: String,
@@ -68,7 +69,7 @@ pub struct ParameterReport {
 }
 
 /// One question and its answer.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CriterionReport {
     /// Its name.
     pub name: String,
@@ -95,7 +96,7 @@ pub struct CriterionReport {
 }
 
 /// All contacts of one pair.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CollisionReport {
     /// A part of the robot, or an object.
     pub a: String,
@@ -114,7 +115,7 @@ pub struct CollisionReport {
 }
 
 /// The smallest distance to one object.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ClearanceReport {
     /// The nearest part of the robot, or what it holds.
     pub a: String,
@@ -131,7 +132,7 @@ pub struct ClearanceReport {
 }
 
 /// Where the skill complies, and why.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ComplianceReport {
     /// The statistic that decides.
     pub statistic: &'static str,
@@ -144,7 +145,7 @@ pub struct ComplianceReport {
 }
 
 /// One state of the skill.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ComplianceState {
     /// Its number.
     pub index: usize,
@@ -155,7 +156,7 @@ pub struct ComplianceState {
 }
 
 /// A stretch of time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Window {
     /// Start (s).
     pub start_s: f64,
@@ -164,7 +165,7 @@ pub struct Window {
 }
 
 /// What the person did while the skill was executed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct HumanReport {
     /// Largest force (N).
     pub peak_force_n: f64,
@@ -175,7 +176,7 @@ pub struct HumanReport {
 }
 
 /// How learning went.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LearningSection {
     /// Objective after every iteration of the start that was kept.
     pub log_likelihood: Vec<Option<f64>>,
@@ -190,7 +191,7 @@ pub struct LearningSection {
 }
 
 /// One phase of the run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PhaseReport {
     /// Its name.
     pub name: String,

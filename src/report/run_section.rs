@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -9,7 +10,7 @@ use super::manifest::FORMAT;
 use super::table::table;
 
 /// A run as its folder tells it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RunSection {
     /// Name of the scenario.
     pub scenario: String,
@@ -28,7 +29,7 @@ pub struct RunSection {
 }
 
 /// One criterion.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CriterionLine {
     /// Its name.
     pub name: String,
@@ -41,7 +42,7 @@ pub struct CriterionLine {
 }
 
 /// One file or folder of a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FileLine {
     /// Its name.
     pub name: String,

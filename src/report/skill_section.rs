@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::DVector;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Window;
@@ -12,7 +13,7 @@ use crate::learning::phmm::FitStatus;
 use crate::learning::{FitReport, LearningError, ParameterSpace, Skill};
 
 /// What a skill holds. States and windows are those at the middle of the demonstrated parameters.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SkillSection {
     /// What stands for the forcing term: `phmm`, or `lwr`.
     pub shaping: &'static str,
@@ -49,7 +50,7 @@ pub struct SkillSection {
 }
 
 /// A parameter and the range in which it was demonstrated.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ParameterRange {
     /// Its name.
     pub name: String,
@@ -60,7 +61,7 @@ pub struct ParameterRange {
 }
 
 /// One state of the motion model.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StateRow {
     /// Counted from 0.
     pub index: usize,
@@ -81,7 +82,7 @@ pub struct StateRow {
 }
 
 /// How one model was fitted.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FitSection {
     /// Number of states.
     pub states: usize,

@@ -3,9 +3,11 @@
 use super::load::RecordingPlan;
 use super::tree::Node;
 use super::{build_learning, build_scene};
-use crate::control::ImpedanceSettings;
+use crate::control::{Feedback, ImpedanceSettings};
+use crate::learning::PhaseStopping;
+use crate::learning::dmp::Integrator;
 use crate::robot::EffortModel;
-use crate::simulation::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings};
+use crate::simulation::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings};
 use crate::world::{HumanSettings, Parameters, PhysicsSettings, SensorSettings};
 
 /// The experiment that a scenario describes.
@@ -34,6 +36,7 @@ pub(super) fn experiment(scenario: &Node) -> Experiment {
         },
         theta_m: learning.texts("theta_m"),
         theta_f: learning.texts("theta_f"),
+        space: if learning.text("space") == "joint" { MotionSpace::Joint } else { MotionSpace::Task },
         learning: build_learning::learning(&learning),
         execution: execution(&scenario.section("execution"), &scenario.section("coupling"), &human.section("help")),
         log_rate_hz: simulation.number("log_rate_hz"),
@@ -96,6 +99,14 @@ fn execution(table: &Node, coupling: &Node, help: &Node) -> ExecutionPlan {
     };
     ExecutionPlan {
         coupling: build_learning::coupling(coupling),
+        integrator: if table.text("integrator") == "rk4" { Integrator::RungeKutta4 } else { Integrator::ExactHold },
+        feedback: match table.text("feedback") {
+            "measured" => Feedback::Measured { time_constant_s: table.number("feedback_time_s") },
+            _ => Feedback::None,
+        },
+        phase_stopping: table
+            .flag("phase_stopping")
+            .then(|| PhaseStopping { gain: table.number("phase_stopping_gain"), slowest: table.number("phase_stopping_slowest") }),
         duration_s: table.optional_number("duration_s"),
         settle_s: table.number("settle_s"),
         help,

@@ -23,6 +23,11 @@ fn settings(table: &Node) -> PlanarSettings {
     }
 }
 
+/// The place of an axis in a vector.
+fn axis(name: &str) -> Option<usize> {
+    ["x", "y", "z"].iter().position(|axis| *axis == name)
+}
+
 fn criterion(table: &Node) -> Option<CriterionSpec> {
     let object = || table.text("object").to_owned();
     let max_m = || table.number("max_m");
@@ -44,6 +49,11 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
             min_m: table.number("min_m"),
         },
         "planar_collides" => CriterionKind::PlanarCollides { method: method(table)?, settings: settings(table) },
+        "no_collision" => CriterionKind::NoCollision,
+        "expected_force" => CriterionKind::ExpectedForce { axis: axis(table.text("axis"))?, max_n: table.number("max_n") },
+        "object_at" => {
+            CriterionKind::ObjectAt { object: object(), at: table.optional_text("at"), offset_m: table.array("offset_m"), max_m: max_m() }
+        }
         "goal_reached" => CriterionKind::GoalReached { max_m: max_m() },
         "human_force" => CriterionKind::HumanForce { max_n: table.number("max_n") },
         "compliance_window" => CriterionKind::ComplianceWindow { stiff_at: table.texts("stiff_at") },

@@ -1,16 +1,18 @@
 //! A filled tree to the settings of learning and coupling.
 
+use super::schema::AUTO;
 use super::tree::Node;
 use crate::learning::cpdmp::{
     ComplianceSettings, CouplingMode, CouplingSettings, CouplingSpace, ForceConvention, Statistic, Switching, Threshold,
 };
 use crate::learning::dmp::PhaseInput;
 use crate::learning::phmm::{CovarianceMode, PhmmSettings, Topology};
-use crate::learning::selection::{StatesCriterion, StatesSearch};
+use crate::learning::selection::{Selection, StatesCriterion, StatesSearch};
 use crate::learning::{Features, LearningSettings, ShapingKind};
 
 /// How the skill is learned.
 pub(super) fn learning(table: &Node) -> LearningSettings {
+    let defaults = LearningSettings::default();
     LearningSettings {
         shaping: if table.text("shaping") == "lwr" { ShapingKind::Lwr } else { ShapingKind::Phmm },
         stiffness: table.number("stiffness"),
@@ -20,29 +22,36 @@ pub(super) fn learning(table: &Node) -> LearningSettings {
         smoothing_window_s: table.number("smoothing_window_s"),
         smoothing_degree: table.size("smoothing_degree"),
         gate_start: table.number("gate_start"),
-        motion: hidden_markov_model(&table.section("motion")),
-        force: hidden_markov_model(&table.section("force")),
+        motion: hidden_markov_model(&table.section("motion"), &defaults.motion),
+        force: hidden_markov_model(&table.section("force"), &defaults.force),
         lwr_basis: table.size("lwr_basis"),
         compliance: compliance(&table.section("compliance")),
         orientation_basis: table.size("orientation_basis"),
         align: table.flag("align"),
-        automatic_ridge: table.flag("automatic_ridge"),
-        states_search: states_search(table),
+        motion_selection: Selection {
+            states: states_search(table, "motion", table.text("states_criterion") != "given"),
+            ridge: is_automatic(table, "motion", "ridge") || table.flag("automatic_ridge"),
+        },
+        force_selection: Selection { states: states_search(table, "force", false), ridge: is_automatic(table, "force", "ridge") },
     }
 }
 
-fn states_search(table: &Node) -> Option<StatesSearch> {
-    let criterion = match table.text("states_criterion") {
-        "bic" => StatesCriterion::Bic,
-        "cross_validation" => StatesCriterion::CrossValidation,
-        _ => return None,
-    };
-    Some(StatesSearch { criterion, min: table.size("states_min"), max: table.size("states_max") })
+/// Whether a key of a model leaves its value to the demonstrations.
+pub(super) fn is_automatic(learning: &Node, model: &str, key: &str) -> bool {
+    learning.section(model).text(key) == AUTO
 }
 
-fn hidden_markov_model(table: &Node) -> PhmmSettings {
+/// How a model's number of states is chosen, if it is: because it says so, or because it is asked for.
+fn states_search(learning: &Node, model: &str, asked: bool) -> Option<StatesSearch> {
+    let criterion = if learning.text("states_criterion") == "bic" { StatesCriterion::Bic } else { StatesCriterion::CrossValidation };
+    let search = StatesSearch { criterion, min: learning.size("states_min"), max: learning.size("states_max") };
+    (asked || is_automatic(learning, model, "states")).then_some(search)
+}
+
+/// The settings of a model. What the demonstrations choose begins at the default.
+fn hidden_markov_model(table: &Node, default: &PhmmSettings) -> PhmmSettings {
     PhmmSettings {
-        states: table.size("states"),
+        states: if table.text("states") == AUTO { default.states } else { table.size("states") },
         topology: if table.text("topology") == "ergodic" { Topology::Ergodic } else { Topology::LeftToRight },
         weights_on_phase: table.flag("weights_on_phase"),
         features: match table.text("features") {
@@ -51,7 +60,7 @@ fn hidden_markov_model(table: &Node) -> PhmmSettings {
             _ => Features::Linear,
         },
         covariance: if table.text("covariance") == "fixed" { CovarianceMode::Fixed } else { CovarianceMode::Estimated },
-        ridge: table.number("ridge"),
+        ridge: if table.text("ridge") == AUTO { default.ridge } else { table.number("ridge") },
         covariance_floor: table.number("covariance_floor"),
         kmeans_starts: table.count("kmeans_starts"),
         max_iterations: table.size("max_iterations"),
@@ -79,7 +88,13 @@ pub(super) fn coupling(table: &Node) -> CouplingSettings {
         convention: if table.text("convention") == "on_world" { ForceConvention::OnWorld } else { ForceConvention::OnRobot },
         switching,
         mode: coupling_mode(table),
-        space: CouplingSpace::Task,
+        space: match table.text("space") {
+            "joint" => CouplingSpace::Joint {
+                compliance_rad_per_nm: table.numbers("compliance_rad_per_nm"),
+                saturation_rad: table.number("saturation_rad"),
+            },
+            _ => CouplingSpace::Task,
+        },
     }
 }
 

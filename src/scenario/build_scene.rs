@@ -2,7 +2,7 @@
 
 use super::tree::Node;
 use crate::simulation::{TeachingPlan, Waypoint};
-use crate::world::{Object, ObjectKind};
+use crate::world::{Object, ObjectKind, Solid};
 
 /// An object of the scene; none if its kind is faulty.
 pub(super) fn object(table: &Node) -> Option<Object> {
@@ -10,7 +10,7 @@ pub(super) fn object(table: &Node) -> Option<Object> {
         "table" => ObjectKind::Table {
             size_m: table.vector2("size_m"),
             top_height_m: table.number("top_height_m"),
-            friction: table.number("friction"),
+            friction: table.quantity("friction"),
         },
         "u_block" => ObjectKind::UBlock {
             base_height_m: table.quantity("base_height_m"),
@@ -18,27 +18,45 @@ pub(super) fn object(table: &Node) -> Option<Object> {
             post_height_m: table.number("post_height_m"),
             post_width_m: table.number("post_width_m"),
             thickness_m: table.number("thickness_m"),
+            friction: table.quantity("friction"),
         },
         "ball" => ObjectKind::Ball {
             radius_m: table.number("radius_m"),
-            mass_kg: table.number("mass_kg"),
-            friction: table.number("friction"),
+            mass_kg: table.quantity("mass_kg"),
+            friction: table.quantity("friction"),
             rolling_damping_per_s: table.number("rolling_damping_per_s"),
         },
-        "box" => ObjectKind::Box {
+        "box" => ObjectKind::Box { size_m: table.array::<3>("size_m").into(), body: solid(table) },
+        "cylinder" => ObjectKind::Cylinder { radius_m: table.number("radius_m"), height_m: table.number("height_m"), body: solid(table) },
+        "spring_plate" => ObjectKind::SpringPlate {
             size_m: table.array::<3>("size_m").into(),
-            mass_kg: table.number("mass_kg"),
-            friction: table.number("friction"),
+            travel_m: table.number("travel_m"),
+            stiffness_n_per_m: table.quantity("stiffness_n_per_m"),
+            damping_ns_per_m: table.number("damping_ns_per_m"),
+            mass_kg: table.quantity("mass_kg"),
+            friction: table.quantity("friction"),
         },
         "basket" => ObjectKind::Basket {
             inner_size_m: table.vector2("inner_size_m"),
             wall_height_m: table.number("wall_height_m"),
             wall_thickness_m: table.number("wall_thickness_m"),
+            friction: table.quantity("friction"),
         },
         _ => return None,
     };
-    let center_m = table.vector2("center_m");
-    Some(Object { name: table.text("name").to_owned(), center_m, lateral_offset_m: table.quantity("lateral_offset_m"), kind })
+    Some(Object {
+        name: table.text("name").to_owned(),
+        center_m: table.vector2("center_m"),
+        lateral_offset_m: table.quantity("lateral_offset_m"),
+        offset_y_m: table.quantity("offset_y_m"),
+        raised_m: table.quantity("raised_m"),
+        yaw_rad: table.quantity("yaw_rad"),
+        kind,
+    })
+}
+
+fn solid(table: &Node) -> Solid {
+    Solid { mass_kg: table.quantity("mass_kg"), friction: table.quantity("friction"), fixed: table.flag("fixed") }
 }
 
 /// How the virtual human teaches.

@@ -69,7 +69,7 @@ pub(super) fn known_names(scenario: &Node, to: To) -> Vec<&str> {
         To::Parameter => scenario.get("parameters").map_or(&[][..], Node::entries).iter().map(|entry| entry.key.as_str()).collect(),
         To::Object => objects.iter().filter_map(Node::name).collect(),
         To::MovableObject => {
-            let moves = |object: &&Node| object.get("kind").is_none_or(|node| matches!(node.as_text(), Some("ball" | "box")));
+            let moves = |object: &&Node| object.get("kind").is_none_or(|node| matches!(node.as_text(), Some("ball" | "box" | "cylinder")));
             objects.iter().filter(moves).filter_map(Node::name).collect()
         }
         To::ObjectOfKind(kind) => {

@@ -8,7 +8,7 @@ use super::tree::{Node, Value};
 const OF_ARMS: [&str; 9] = ["parameters", "demonstrations", "robot", "simulation", "object", "teaching", "coupling", "execution", "human"];
 
 /// Keys of the learning that planar experiments decide themselves.
-const DECIDED: [&str; 3] = ["theta_m", "theta_f", "shaping"];
+const DECIDED: [&str; 4] = ["theta_m", "theta_f", "space", "shaping"];
 
 /// Keys of the learning about what movements in a plane do not have: forces, compliance to them, an orientation.
 const ABSENT: [&str; 3] = ["force", "compliance", "orientation_basis"];

@@ -1,5 +1,6 @@
 //! What no single key can tell: names that refer to something, times that rise, settings that agree with each other.
 
+use super::check_coupling::coupling;
 use super::check_names::{references, unique_names};
 use super::check_planar::planar;
 use super::check_taught::{grid, parameters_are_taught};
@@ -25,7 +26,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
         waypoints(teaching, &mut faults);
     }
     joints(scenario, &mut faults);
-    axes(scenario, &mut faults);
+    coupling(scenario, &mut faults);
     rates(scenario, &mut faults);
     pushes(scenario, &mut faults);
     faults
@@ -72,17 +73,6 @@ fn joints(scenario: &Node, faults: &mut Vec<Fault>) {
         }
         let message = format!("`{key}` has {} entries, but `rest_posture_rad` has {joints}", node.items().len());
         faults.push(Fault::at(Code::WrongLength, node.origin, message).expected("one number per joint of the arm in each of them"));
-    }
-}
-
-/// Taught motions have three columns: x, y and z.
-fn axes(scenario: &Node, faults: &mut Vec<Fault>) {
-    let compliance = scenario.get("coupling").and_then(|coupling| coupling.get("compliance_m_per_n"));
-    if let (Some(_), Some(node)) = (scenario.get("teaching"), compliance)
-        && ![1, 3].contains(&node.items().len())
-    {
-        let fault = Fault::at(Code::WrongLength, node.origin, format!("`compliance_m_per_n` has {} entries", node.items().len()));
-        faults.push(fault.expected("one number for all axes, or one each for x, y and z"));
     }
 }
 

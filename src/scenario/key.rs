@@ -27,6 +27,8 @@ pub(super) enum Kind {
     Quantity(Measure),
     /// A number, or one word.
     NumberOrWord(Measure, &'static str),
+    /// A whole number between two bounds, or one word.
+    CountOrWord(i64, i64, &'static str),
     /// A list of numbers.
     Vector(Measure, Length),
     /// A list of `[start, end]`.

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::build_learning;
+use super::checks::is_typed;
 use super::conform::Conform;
 use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
 use super::fault::{Code, Fault, Severity};
@@ -68,6 +69,10 @@ fn read(options: &LearningOptions, sources: &mut Sources, faults: &mut Vec<Fault
             let fault = Fault::at(Code::Conflict, node.origin, format!("`learning.{key}` is for scenarios"));
             faults.push(fault.expected("no such key: the dataset says which parameters its demonstrations have, or --theta does"));
         }
+    }
+    if let Some(space) = learning.filter(|table| is_typed(table, "space")).and_then(|table| table.get("space")) {
+        let fault = Fault::at(Code::Conflict, space.origin, "`learning.space` is for scenarios");
+        faults.push(fault.expected("no such key: the dataset says which columns are learned, or --motion does"));
     }
     Some(filled)
 }

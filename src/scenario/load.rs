@@ -248,6 +248,20 @@ mod tests {
             center_m = [0.6, -0.2]
             inner_size_m = [0.2, 0.2]
             wall_height_m = 0.1
+            [[object]]
+            name = "peg"
+            kind = "cylinder"
+            center_m = [0.6, 0.4]
+            raised_m = "height_m"
+            radius_m = 0.02
+            height_m = 0.1
+            fixed = true
+            [[object]]
+            name = "mat"
+            kind = "spring_plate"
+            center_m = [0.8, 0.1]
+            yaw_rad = 0.5
+            size_m = [0.1, 0.1, 0.02]
             [robot.sensor]
             filter_cutoff_hz = inf
             [learning.compliance]
@@ -261,6 +275,9 @@ mod tests {
             "object_in_container\"\nobject = \"toy\"\ncontainer = \"basket\"",
             "no_contact\"\nobjects = [\"block\"]",
             "clearance\"\nobjects = [\"block\"]\nmin_m = 0.005",
+            "no_collision\"",
+            "expected_force\"\naxis = \"y\"\nmax_n = 0.5",
+            "object_at\"\nobject = \"toy\"\nat = \"basket\"\noffset_m = [0, 0, 0.1]\nmax_m = 0.02",
             "goal_reached\"\nmax_m = 0.02",
             "human_force\"\nmax_n = 15",
             "compliance_window\"\nstiff_at = [\"block\"]",
@@ -274,6 +291,6 @@ mod tests {
         assert_eq!(again.resolved, typed.resolved);
         assert_eq!(format!("{:?}", again.work), format!("{:?}", typed.work));
         assert_eq!(again.criteria, typed.criteria);
-        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (9, 5));
+        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (12, 7));
     }
 }

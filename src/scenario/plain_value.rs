@@ -1,5 +1,6 @@
 //! Values that are no tables of fixed keys: numbers, texts, lists of them, paths.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::conform::Conform;
@@ -20,11 +21,13 @@ impl Conform<'_> {
         match (kind, &typed.value) {
             (Kind::Flag, Value::Flag(_)) | (Kind::Text, Value::Text(_)) => typed.value,
             (Kind::Quantity(_), Value::Text(name)) if is_name(name) => typed.value,
-            (Kind::NumberOrWord(_, word), Value::Text(text)) if text == word => typed.value,
+            (Kind::NumberOrWord(_, word) | Kind::CountOrWord(_, _, word), Value::Text(text)) if text == word => typed.value,
             (Kind::Number(measure) | Kind::Quantity(measure) | Kind::NumberOrWord(measure, _), _) => {
                 self.number(kind, measure, &typed, path)
             }
-            (Kind::Count(min, max), Value::Integer(count)) => self.count(*min, *max, *count, typed.origin, path),
+            (Kind::Count(min, max) | Kind::CountOrWord(min, max, _), Value::Integer(count)) => {
+                self.count(kind, *min..=*max, *count, typed.origin, path)
+            }
             (Kind::Vector(measure, length), Value::List(items)) => {
                 self.length(*length, items.len(), typed.origin, path);
                 Value::List(self.numbers(measure, items, path))
@@ -65,17 +68,18 @@ impl Conform<'_> {
             return Value::Number(number);
         }
         let message = format!("`{path}` is {}", shown(number));
-        let fault = Fault::at(Code::OutOfRange, typed.origin, message).expected(measure.describe());
+        let expected = if matches!(kind, Kind::NumberOrWord(..)) { kind.describe() } else { measure.describe() };
+        let fault = Fault::at(Code::OutOfRange, typed.origin, message).expected(expected);
         self.faults.push(fault.maybe_help(other_unit(number, measure)));
         Value::Missing
     }
 
-    fn count(&mut self, min: i64, max: i64, count: i64, origin: Origin, path: &str) -> Value {
-        if (min..=max).contains(&count) {
+    fn count(&mut self, kind: &Kind, range: RangeInclusive<i64>, count: i64, origin: Origin, path: &str) -> Value {
+        if range.contains(&count) {
             return Value::Integer(count);
         }
         let fault = Fault::at(Code::OutOfRange, origin, format!("`{path}` is {count}"));
-        self.faults.push(fault.expected(Kind::Count(min, max).describe()));
+        self.faults.push(fault.expected(kind.describe()));
         Value::Missing
     }
 

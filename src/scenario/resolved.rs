@@ -72,12 +72,10 @@ fn line(text: &mut String, key: &Key, value: Option<&Node>) {
 fn range(kind: &Kind) -> String {
     let of = |measure: &Measure| format!(" ({})", measure.describe());
     match kind {
-        Kind::Number(measure)
-        | Kind::NumberOrWord(measure, _)
-        | Kind::Quantity(measure)
-        | Kind::Vector(measure, _)
-        | Kind::Windows(measure) => of(measure),
+        Kind::NumberOrWord(measure, word) => format!(" ({}, or \"{word}\")", measure.describe()),
+        Kind::Number(measure) | Kind::Quantity(measure) | Kind::Vector(measure, _) | Kind::Windows(measure) => of(measure),
         Kind::Count(min, max) if min < max && *max < i64::MAX => format!(" ({min} … {max})"),
+        Kind::CountOrWord(min, max, word) => format!(" ({min} … {max}, or \"{word}\")"),
         Kind::Choice(choices) => format!(" ({})", choices.join(", ")),
         _ => String::new(),
     }

@@ -1,8 +1,8 @@
 //! The table of keys: the whole scenario language on one page.
 
 use super::key::Kind::{
-    Choice, Count, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References, Section, Tag,
-    Text, Vector, Windows,
+    Choice, Count, CountOrWord, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References,
+    Section, Tag, Text, Vector, Windows,
 };
 use super::key::Length::{AtLeast, Exactly};
 use super::key::To::{MovableObject, Object, ObjectOfKind, Parameter};
@@ -152,6 +152,9 @@ const OBJECT: Shape = Shape {
         Key::new("kind", Tag, "what it is"),
         Key::new("center_m", Vector(within("m", -3.0, 3.0), Exactly(2)), "centre in the horizontal plane (x forward, y left of the robot)"),
         Key::new("lateral_offset_m", Quantity(within("m", -1.0, 1.0)), "added to the centre along x").or_number(0.0),
+        Key::new("offset_y_m", Quantity(within("m", -1.0, 1.0)), "added to the centre along y").or_number(0.0),
+        Key::new("raised_m", Quantity(within("m", -1.0, 1.0)), "added to the height at which it stands").or_number(0.0),
+        Key::new("yaw_rad", Quantity(within("rad", -7.0, 7.0)), "turn about the vertical through its centre").or_number(0.0),
     ],
     variants: &[
         Variant {
@@ -159,7 +162,7 @@ const OBJECT: Shape = Shape {
             keys: &[
                 Key::new("size_m", Vector(within("m", 0.01, 5.0), Exactly(2)), "extent along x and y"),
                 Key::new("top_height_m", Number(within("m", -2.0, 2.0)), "height of its top above the robot's base frame"),
-                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
             ],
         },
         Variant {
@@ -170,14 +173,15 @@ const OBJECT: Shape = Shape {
                 Key::new("post_height_m", Number(within("m", 0.005, 1.0)), "height of the posts above the base"),
                 Key::new("post_width_m", Number(within("m", 0.001, 1.0)), "width of each post, along x").or_number(0.03),
                 Key::new("thickness_m", Number(within("m", 0.001, 1.0)), "extent along y").or_number(0.05),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.5),
             ],
         },
         Variant {
             kind: "ball",
             keys: &[
                 Key::new("radius_m", Number(within("m", 0.001, 0.5)), "radius"),
-                Key::new("mass_kg", Number(within("kg", 0.001, 50.0)), "mass"),
-                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.8),
+                Key::new("mass_kg", Quantity(within("kg", 0.001, 50.0)), "mass"),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.8),
                 Key::new("rolling_damping_per_s", Number(within("1/s", 0.0, 1000.0)), "rolling resistance, as angular damping")
                     .or_number(5.0),
             ],
@@ -186,8 +190,30 @@ const OBJECT: Shape = Shape {
             kind: "box",
             keys: &[
                 Key::new("size_m", Vector(within("m", 0.001, 2.0), Exactly(3)), "extent along x, y, z"),
-                Key::new("mass_kg", Number(within("kg", 0.001, 50.0)), "mass"),
-                Key::new("friction", Number(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+                Key::new("mass_kg", Quantity(within("kg", 0.001, 50.0)), "mass").or_number(1.0),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+                Key::new("fixed", Flag, "whether it is fixed to the world instead of free to move").or(Preset::Flag(false)),
+            ],
+        },
+        Variant {
+            kind: "cylinder",
+            keys: &[
+                Key::new("radius_m", Number(within("m", 0.001, 1.0)), "radius"),
+                Key::new("height_m", Number(within("m", 0.001, 2.0)), "height: it stands upright"),
+                Key::new("mass_kg", Quantity(within("kg", 0.001, 50.0)), "mass").or_number(0.5),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.6),
+                Key::new("fixed", Flag, "whether it is fixed to the world instead of free to move").or(Preset::Flag(false)),
+            ],
+        },
+        Variant {
+            kind: "spring_plate",
+            keys: &[
+                Key::new("size_m", Vector(within("m", 0.001, 2.0), Exactly(3)), "extent of the plate along x, y, z"),
+                Key::new("travel_m", Number(within("m", 0.001, 0.5)), "how far it can yield downward").or_number(0.03),
+                Key::new("stiffness_n_per_m", Quantity(within("N/m", 10.0, 1e5)), "stiffness of the spring under it").or_number(1000.0),
+                Key::new("damping_ns_per_m", Number(within("N s/m", 0.0, 1e4)), "damping of the spring").or_number(20.0),
+                Key::new("mass_kg", Quantity(within("kg", 0.001, 50.0)), "mass of the plate, which the spring carries").or_number(0.2),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.3),
             ],
         },
         Variant {
@@ -196,6 +222,7 @@ const OBJECT: Shape = Shape {
                 Key::new("inner_size_m", Vector(within("m", 0.01, 2.0), Exactly(2)), "inner extent along x and y"),
                 Key::new("wall_height_m", Number(within("m", 0.001, 1.0)), "height of its walls"),
                 Key::new("wall_thickness_m", Number(within("m", 0.001, 0.2)), "thickness of walls and floor").or_number(0.005),
+                Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.5),
             ],
         },
     ],
@@ -228,6 +255,8 @@ const WAYPOINT: Shape = Shape::plain(&[
 const LEARNING: Shape = Shape::plain(&[
     Key::new("theta_m", References(Parameter), "parameters that the motion model is told").or_empty(),
     Key::new("theta_f", References(Parameter), "parameters that the force model is told; none for a fixed one").or_empty(),
+    Key::new("space", Choice(&["task", "joint"]), "what the motion model learns: the place of the tool (m), or the arm's joints (rad)")
+        .or(Preset::Text("task")),
     Key::new("shaping", Choice(&["phmm", "lwr"]), "what stands for the forcing term: the paper's model, or its baseline")
         .or(Preset::Text("phmm")),
     Key::new("stiffness", Number(within("", 1.0, 1e7)), "stiffness K of the movement primitive (1)").or_number(5000.0),
@@ -241,11 +270,15 @@ const LEARNING: Shape = Shape::plain(&[
     Key::new("orientation_basis", Count(2, 500), "basis functions of the orientation").or(Preset::Count(40)),
     Key::new("align", Flag, "whether demonstrations are brought to one timing first, by one warp each for all columns")
         .or(Preset::Flag(false)),
-    Key::new("automatic_ridge", Flag, "whether the motion model's ridge is chosen by leaving demonstrations out").or(Preset::Flag(false)),
-    Key::new("states_criterion", Choice(&["given", "bic", "cross_validation"]), "what chooses the motion model's number of states")
-        .or(Preset::Text("given")),
-    Key::new("states_min", Count(1, 200), "fewest states that are tried").or(Preset::Count(4)),
-    Key::new("states_max", Count(1, 200), "most states that are tried").or(Preset::Count(24)),
+    Key::new("automatic_ridge", Flag, "the same as motion.ridge = \"auto\"").or(Preset::Flag(false)),
+    Key::new(
+        "states_criterion",
+        Choice(&["given", "bic", "cross_validation"]),
+        "what decides about states = \"auto\": `given` leaves it to cross-validation; another word makes motion.states \"auto\"",
+    )
+    .or(Preset::Text("given")),
+    Key::new("states_min", Count(1, 200), "fewest states that are tried for \"auto\"").or(Preset::Count(4)),
+    Key::new("states_max", Count(1, 200), "most states that are tried for \"auto\"").or(Preset::Count(24)),
     Key::new("motion", Section(MOTION_MODEL), "the hidden Markov model of the motion").or_empty(),
     Key::new("force", Section(FORCE_MODEL), "the hidden Markov model of the force").or_empty(),
     Key::new("compliance", Section(COMPLIANCE), "where the skill complies (20)").or_empty(),
@@ -254,9 +287,13 @@ const LEARNING: Shape = Shape::plain(&[
 const MOTION_MODEL: Shape = Shape::plain(&hidden_markov_model(16));
 const FORCE_MODEL: Shape = Shape::plain(&hidden_markov_model(10));
 
+/// The word for what the demonstrations choose.
+pub(super) const AUTO: &str = "auto";
+
 const fn hidden_markov_model(states: i64) -> [Key; 12] {
     [
-        Key::new("states", Count(1, 200), "number of states").or(Preset::Count(states)),
+        Key::new("states", CountOrWord(1, 200, AUTO), "number of states; \"auto\" tries states_min to states_max")
+            .or(Preset::Count(states)),
         Key::new("topology", Choice(&["left_to_right", "ergodic"]), "which transitions exist").or(Preset::Text("left_to_right")),
         Key::new("weights_on_phase", Flag, "whether parameters also move the phase at which a state sits").or(Preset::Flag(false)),
         Key::new("features", Choice(&["linear", "quadratic", "rbf"]), "functions of the parameters that the means are linear in")
@@ -270,7 +307,12 @@ const fn hidden_markov_model(states: i64) -> [Key; 12] {
             "whether covariances are learned with the parameters, or kept from the model without",
         )
         .or(Preset::Text("estimated")),
-        Key::new("ridge", Number(within("", 0.0, 1e6)), "strength of the prior W = 0, as a number of demonstrations").or_number(0.1),
+        Key::new(
+            "ridge",
+            NumberOrWord(within("", 0.0, 1e6), AUTO),
+            "strength of the prior W = 0, as a number of demonstrations; \"auto\" leaves demonstrations out to choose it",
+        )
+        .or_number(0.1),
         Key::new("covariance_floor", Number(within("", 0.0, 0.1)), "smallest eigenvalue of a covariance, columns scaled to 1; 0 for none")
             .or_number(1e-5),
         Key::new("kmeans_starts", Count(0, 1000), "starts by k-means, besides the two by time slices").or(Preset::Count(4)),
@@ -282,7 +324,12 @@ const fn hidden_markov_model(states: i64) -> [Key; 12] {
 const COMPLIANCE: Shape = Shape::plain(&[
     Key::new("statistic", Choice(&["between_demonstration", "conditional", "literal"]), "which covariance of a state decides")
         .or(Preset::Text("between_demonstration")),
-    Key::new("threshold_m2", NumberOrWord(above("m²", 0.0, 1e6), "automatic"), "a state complies when it exceeds this").or_number(1e-4),
+    Key::new(
+        "threshold_m2",
+        NumberOrWord(above("m²", 0.0, 1e6), "automatic"),
+        "a state complies when it exceeds this; in joint space rad²",
+    )
+    .or_number(1e-4),
 ]);
 
 const COUPLING: Shape = Shape::plain(&[
@@ -290,6 +337,19 @@ const COUPLING: Shape = Shape::plain(&[
     Key::new("compliance_m_per_n", Vector(within("m/N", 0.0, 10.0), AtLeast(1)), "displacement per force error: per axis, or one for all")
         .or(Preset::Vector(&[0.01])),
     Key::new("saturation_m", Number(within("m", 0.0, 10.0)), "largest displacement, per axis").or_number(0.1),
+    Key::new(
+        "space",
+        Choice(&["task", "joint"]),
+        "J of (17): the identity, so that a force moves the tool along itself, or the arm's Jacobian, for a motion of the joints",
+    )
+    .or(Preset::Text("task")),
+    Key::new(
+        "compliance_rad_per_nm",
+        Vector(within("rad/(N m)", 0.0, 10.0), AtLeast(1)),
+        "turn per torque J^T (F - F_des) at the joints, in joint space: per joint, or one for all",
+    )
+    .or(Preset::Vector(&[0.01])),
+    Key::new("saturation_rad", Number(within("rad", 0.0, 10.0)), "largest displacement per joint, in joint space").or_number(0.3),
     Key::new("convention", Choice(&["on_robot", "on_world"]), "whose force the wrench columns hold").or(Preset::Text("on_robot")),
     Key::new("switching", Choice(&["smooth", "hard"]), "how the coupling goes on and off at the edges of a window")
         .or(Preset::Text("smooth")),
@@ -306,6 +366,27 @@ const COUPLING: Shape = Shape::plain(&[
 
 const EXECUTION: Shape = Shape::plain(&[
     Key::new("duration_s", Number(within("s", 0.5, 600.0)), "duration of the skill; that of the demonstrations without it").optional(),
+    Key::new("integrator", Choice(&["hold", "rk4"]), "exact for a forcing held over the step, or Runge-Kutta").or(Preset::Text("hold")),
+    Key::new(
+        "feedback",
+        Choice(&["none", "measured"]),
+        "whether the skill goes on from where it sent the arm, or is drawn to where the arm is",
+    )
+    .or(Preset::Text("none")),
+    Key::new("feedback_time_s", Number(within("s", 0.001, 100.0)), "time constant with which it is drawn there").or_number(0.2),
+    Key::new(
+        "phase_stopping",
+        Flag,
+        "whether the phase waits while the movement is off its path: pushed by the coupling or, with feedback, held back",
+    )
+    .or(Preset::Flag(false)),
+    Key::new(
+        "phase_stopping_gain",
+        Number(within("per m² or rad²", 0.0, 1e9)),
+        "the phase's rate is 1 / (1 + gain times the squared distance from the path)",
+    )
+    .or_number(1e4),
+    Key::new("phase_stopping_slowest", Number(within("", 0.001, 1.0)), "the rate below which it never falls").or_number(0.05),
     Key::new("settle_s", Number(within("s", 0.0, 60.0)), "how long the run goes on before the world is judged").or_number(1.5),
 ]);
 
@@ -411,6 +492,24 @@ const CRITERION: Shape = Shape {
                 Key::new("min_m", Number(within("m", -100.0, 100.0)), "smallest distance with which each side must be passed"),
             ],
         },
+        Variant { kind: "no_collision", keys: &[] },
+        Variant {
+            kind: "expected_force",
+            keys: &[
+                Key::new("axis", Choice(&["x", "y", "z"]), "along which axis of the world"),
+                Key::new("max_n", Number(within("N", 0.0, 500.0)), "largest rms difference of the measured from the expected force"),
+            ],
+        },
+        Variant {
+            kind: "object_at",
+            keys: &[
+                Key::new("object", Reference(Object), "the object"),
+                Key::new("at", Reference(Object), "the object near which it must end; the world's origin without one").optional(),
+                Key::new("offset_m", Vector(within("m", -3.0, 3.0), Exactly(3)), "the place, from there along the world's axes")
+                    .or(Preset::Vector(&[0.0, 0.0, 0.0])),
+                Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest distance from that place"),
+            ],
+        },
         Variant { kind: "goal_reached", keys: &[Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest distance to the goal")] },
         Variant { kind: "human_force", keys: &[Key::new("max_n", Number(within("N", 0.0, 500.0)), "largest force of the person")] },
         Variant {
@@ -478,7 +577,7 @@ mod tests {
                 (Vector(measure, AtLeast(length)), Preset::Vector(numbers)) => {
                     numbers.len() >= length && numbers.iter().all(|&number| measure.accepts(number))
                 }
-                (Count(min, max), Preset::Count(count)) => (min..=max).contains(&count),
+                (Count(min, max) | CountOrWord(min, max, _), Preset::Count(count)) => (min..=max).contains(&count),
                 (Choice(choices), Preset::Text(text)) => choices.contains(&text),
                 (Flag, Preset::Flag(_)) | (Text | Path(_) | Tag, Preset::Text(_)) => true,
                 (Numbers | Grid | Section(_) | List(_) | References(_) | Folders, Preset::Empty) => true,

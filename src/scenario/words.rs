@@ -15,6 +15,7 @@ impl Kind {
             Self::Number(measure) => format!("a number{}", in_range(measure)),
             Self::Quantity(measure) => format!("a number{}, or the name of a parameter", in_range(measure)),
             Self::NumberOrWord(measure, word) => format!("a number{}, or \"{word}\"", in_range(measure)),
+            Self::CountOrWord(min, max, word) => format!("{}, or \"{word}\"", Self::Count(*min, *max).describe()),
             Self::Vector(measure, length) => format!("{}{}", length.describe(), in_range(measure)),
             Self::Windows(measure) => format!("a list of [start, end]{}", in_range(measure)),
             Self::Text => "text".to_owned(),
@@ -59,7 +60,7 @@ impl To {
         match self {
             Self::Object => "an object".to_owned(),
             Self::ObjectOfKind(kind) => format!("an object of kind `{kind}`"),
-            Self::MovableObject => "an object that can be moved (a ball or a box)".to_owned(),
+            Self::MovableObject => "an object that can be moved (a ball, a box or a cylinder)".to_owned(),
             Self::Parameter => "a parameter".to_owned(),
         }
     }

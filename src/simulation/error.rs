@@ -1,6 +1,6 @@
 //! Why an experiment could not be carried out.
 
-use crate::control::ArmModelError;
+use crate::control::{ArmModelError, UnmeasuredWrench};
 use crate::demonstration::DemonstrationError;
 use crate::learning::LearningError;
 use crate::robot::UrdfError;
@@ -30,6 +30,9 @@ pub enum SimulationError {
     /// Lists of the scenario have another length than the robot's arms, one sentence each.
     #[error("{}", .0.join("\n"))]
     JointCounts(Vec<String>),
+    /// The skill takes a wrench that the arm does not measure.
+    #[error(transparent)]
+    Wrench(#[from] UnmeasuredWrench),
     /// The world could not be built, or diverged.
     #[error(transparent)]
     World(#[from] WorldError),

@@ -1,6 +1,6 @@
 //! Execution: the learned skill runs in a setting that was never shown, and the person may help.
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::Vector3;
 
 use super::person::helper;
 use super::setup::Setup;
@@ -8,7 +8,7 @@ use super::step_loop::{Published, StepLoop};
 use super::{FinalObject, SimulationError, StepRecord};
 use crate::control::{Controller, SkillController};
 use crate::learning::{Skill, SkillExecution};
-use crate::world::{Clearance, ContactEpisode, World, pointing_down};
+use crate::world::{Clearance, ContactEpisode, World};
 
 /// What an execution left behind.
 pub(super) struct Executed {
@@ -31,20 +31,22 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
     let query = experiment.question();
     let execution = SkillExecution::new(skill, &query)?;
     let duration = execution.duration_s();
-    let goal = Vector3::new(execution.goal()[0], execution.goal()[1], execution.goal()[2]);
-    let start = execution.state();
-    let orientation = start.orientation.unwrap_or_else(|| pointing_down(0.0));
-    let place = Translation3::new(start.position[0], start.position[1], start.position[2]);
-    let posture = setup.posture(&Isometry3::from_parts(place, orientation), "the skill's start")?;
+    let goal = setup.tool_at(execution.goal().as_slice()).translation.vector;
+    let (posture, follower) = setup.follower(&execution)?;
 
     let mut world = setup.world(&experiment.parameters, &posture, true)?;
     let step_s = experiment.physics.step_s;
-    let mut controller = SkillController::new(skill, execution, setup.tracker(), setup.observer(), orientation, step_s);
+    let feedback = (experiment.execution.feedback, setup.arm());
+    let mut controller = SkillController::new(skill, execution, follower, setup.observer(), feedback, step_s)?;
     let names: Vec<String> = experiment.objects.iter().map(|object| object.name.clone()).collect();
     let mut person = helper(&experiment.execution.help, &experiment.human, &names, experiment.seed);
-    let steps = setup.steps(duration + experiment.execution.settle_s) + 1;
+    let settle = setup.steps(experiment.execution.settle_s);
+    // A phase that waits ends later, but never later than this.
+    let slowest = experiment.execution.phase_stopping.map_or(1.0, |stopping| stopping.slowest);
+    let steps = setup.steps(duration / slowest + experiment.execution.settle_s) + 1;
+    let mut settled = 0;
     let every = setup.steps(1.0 / experiment.log_rate_hz).max(1);
-    let mut records = Vec::with_capacity((steps / every) as usize + 1);
+    let mut records = Vec::with_capacity((setup.steps(duration) / every) as usize + 1);
     let mut human_peak_force_n: f64 = 0.0;
     let mut hold = setup.hold();
     let mut run = StepLoop {
@@ -55,7 +57,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
         idle: hold.as_mut(),
         step_s,
     };
-    run.run(
+    let steps = run.run_while(
         steps,
         |_, _| {},
         |now| {
@@ -63,6 +65,8 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
             if now.world.step().is_multiple_of(every) {
                 records.push(record(now, names.len()));
             }
+            settled += u64::from(now.controller.telemetry().time_fraction >= 1.0);
+            slowest == 1.0 || settled <= settle
         },
     )?;
     Ok(Executed {

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use crate::control::ImpedanceSettings;
+use crate::control::{Feedback, ImpedanceSettings};
 use crate::learning::cpdmp::CouplingSettings;
-use crate::learning::{ExecutionSettings, LearningSettings};
+use crate::learning::dmp::Integrator;
+use crate::learning::{ExecutionSettings, LearningSettings, PhaseStopping};
 use crate::world::{HumanSettings, Object, Parameters, PhysicsSettings, SensorSettings};
 
 /// One experiment: who teaches what to which robot in which scene, and how the skill is executed.
@@ -30,6 +31,8 @@ pub struct Experiment {
     pub theta_m: Vec<String>,
     /// Which parameters the force model is told (`theta_f`), by name; empty for a fixed one.
     pub theta_f: Vec<String>,
+    /// In which coordinates the motion is learned and executed.
+    pub space: MotionSpace,
     /// How the skill is learned.
     pub learning: LearningSettings,
     /// How it is executed.
@@ -37,6 +40,16 @@ pub struct Experiment {
     /// Samples per second in the step log and the recording (Hz), from which criteria about moments are answered. Contacts and the person's peak
     /// force are taken at every engine step regardless, clearances at 200 Hz.
     pub log_rate_hz: f64,
+}
+
+/// In which coordinates a motion is learned and executed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum MotionSpace {
+    /// Place of the tool in the base frame (m), with its orientation.
+    #[default]
+    Task,
+    /// The arm's joints, from the shoulder (rad).
+    Joint,
 }
 
 impl Experiment {
@@ -49,6 +62,8 @@ impl Experiment {
             theta_f: theta(&self.theta_f),
             duration_s: self.execution.duration_s,
             coupling: self.execution.coupling.clone(),
+            integrator: self.execution.integrator,
+            phase_stopping: self.execution.phase_stopping,
             ..Default::default()
         }
     }
@@ -125,6 +140,12 @@ pub struct Waypoint {
 pub struct ExecutionPlan {
     /// The coupling (17)–(19) between force error and motion.
     pub coupling: CouplingSettings,
+    /// How the movement is integrated.
+    pub integrator: Integrator,
+    /// Whether the skill hears of where the arm really is.
+    pub feedback: Feedback,
+    /// Whether the phase waits while the movement is off its path; the run then goes on until the skill's end.
+    pub phase_stopping: Option<PhaseStopping>,
     /// Start, goal: taken from the demonstrations by regression. Duration (s): that of the demonstrations unless given.
     pub duration_s: Option<f64>,
     /// How long the run goes on after the skill's end before the world is judged (s).

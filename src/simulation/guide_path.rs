@@ -21,7 +21,7 @@ pub(super) struct GuidePath {
 impl GuidePath {
     /// The way of one demonstration in the setting `parameters`; `variation` draws how this one differs from the others.
     pub(super) fn new(plan: &TeachingPlan, objects: &[Object], parameters: &Parameters, variation: &mut ChaCha8Rng) -> Self {
-        let support = support_height_m(objects);
+        let support = support_height_m(objects, parameters);
         let mut path = Self { times_s: Vec::new(), points: Vec::new(), velocities: Vec::new(), gripper: Vec::new() };
         let mut gripper = 1.0;
         let mut dwell: Option<(&Waypoint, Vector3<f64>)> = None;

@@ -14,12 +14,13 @@ mod progress;
 mod replay;
 mod run;
 mod setup;
+mod space;
 mod step_loop;
 mod step_record;
 mod teaching;
 
 pub use error::SimulationError;
-pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, RobotSettings, TeachingPlan, Waypoint};
+pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings, TeachingPlan, Waypoint};
 pub use lesson_record::{LOOKS_HZ, LessonLook, LessonRecord};
 pub use outcome::{AppliedForce, FinalObject, PhaseSummary, RunOutcome};
 pub use progress::{Progress, Silent};

@@ -4,15 +4,15 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::guide_path::GuidePath;
 use super::setup::Setup;
+use super::space::{PLACE_COLUMNS, first_pose};
 use super::teaching::settings_of;
-use super::{DemonstrationSource, SimulationError, TeachingPlan};
+use super::{DemonstrationSource, MotionSpace, SimulationError, TeachingPlan};
 use crate::control::WRENCH_COLUMNS;
-use crate::demonstration::{Dataset, Trajectory};
+use crate::demonstration::Dataset;
+use crate::learning::cpdmp::ForceCoupling;
+use crate::learning::{ShapingKind, wrench_columns};
 use crate::math;
 use crate::world::{Object, ObjectKind, Parameters, pointing_down};
-
-/// Columns that a motion of the tool must begin with.
-const PLACE_COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 
 impl Setup {
     /// Checks everything that needs no simulation: every way-point of every lesson can be reached, nothing starts inside something else or
@@ -24,7 +24,7 @@ impl Setup {
         let start = match &self.experiment.demonstrations {
             DemonstrationSource::Teach(plan) => self.lessons_can_be_led(plan)?,
             DemonstrationSource::Dataset(folder) => {
-                let dataset = Dataset::read(folder)?;
+                let dataset = self.in_space(Dataset::read(folder)?)?;
                 self.fits(&dataset)?;
                 dataset.demonstrations.first().and_then(|lesson| first_pose(&lesson.trajectory))
             }
@@ -43,12 +43,14 @@ impl Setup {
     /// When they are not.
     pub fn fits(&self, dataset: &Dataset) -> Result<(), SimulationError> {
         let refuse = |what: String| Err(SimulationError::Mismatch(what));
-        if dataset.motion.len() < 3 || dataset.motion.iter().zip(PLACE_COLUMNS).any(|(found, wanted)| found != wanted) {
+        let of_tool = dataset.motion.len() >= 3 && dataset.motion.iter().zip(PLACE_COLUMNS).all(|(found, wanted)| found == wanted);
+        if self.experiment.space == MotionSpace::Task && !of_tool {
             return refuse(format!("their motion is [{}], but must begin with x_m, y_m, z_m of the tool", dataset.motion.join(", ")));
         }
         if let Some(unknown) = dataset.wrench.iter().find(|name| !WRENCH_COLUMNS.contains(&name.as_str())) {
             return refuse(format!("the arm does not measure `{unknown}` of their wrench, only {}", WRENCH_COLUMNS.join(", ")));
         }
+        self.coupling_fits(dataset)?;
         let experiment = &self.experiment;
         for (key, told, found) in
             [("theta_m", &experiment.theta_m, dataset.parameters_m()), ("theta_f", &experiment.theta_f, dataset.parameters_f())]
@@ -59,6 +61,19 @@ impl Setup {
             if told != found {
                 return refuse(format!("learning.{key} is [{}], but theirs is [{}]", told.join(", "), found.join(", ")));
             }
+        }
+        Ok(())
+    }
+
+    /// Whether forces can act on the motion as the coupling says: `K1 J^T K2` has the shape of motion and wrench.
+    fn coupling_fits(&self, dataset: &Dataset) -> Result<(), SimulationError> {
+        let (coupling, learning) = (&self.experiment.execution.coupling, &self.experiment.learning);
+        let has_model = !dataset.wrench.is_empty() && learning.shaping == ShapingKind::Phmm;
+        let wrench = wrench_columns(&dataset.motion, has_model.then_some(dataset.wrench.as_slice()), &coupling.space);
+        if coupling.enabled
+            && let Err(error) = ForceCoupling::new(coupling, &dataset.motion, &wrench)
+        {
+            return Err(SimulationError::Mismatch(format!("[coupling]: {error}")));
         }
         Ok(())
     }
@@ -88,7 +103,7 @@ impl Setup {
     /// Everything that can fall lies on a table: there is no floor.
     fn stands(&self, parameters: &Parameters) -> Result<(), SimulationError> {
         let objects = &self.experiment.objects;
-        let hanging = objects.iter().filter(|o| o.is_movable()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
+        let hanging = objects.iter().filter(|o| o.is_free()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
         match hanging {
             None => Ok(()),
             Some(object) => {
@@ -104,11 +119,4 @@ fn carries(table: &Object, object: &Object, parameters: &Parameters) -> bool {
     let ObjectKind::Table { size_m, .. } = &table.kind else { return false };
     let away = object.center(parameters) - table.center(parameters);
     away.x.abs() <= size_m.x / 2.0 && away.y.abs() <= size_m.y / 2.0
-}
-
-/// The tool's pose at the start of a demonstration, if it has an orientation.
-fn first_pose(trajectory: &Trajectory) -> Option<Isometry3<f64>> {
-    let place = trajectory.select(&PLACE_COLUMNS).ok()?;
-    let orientation = *trajectory.orientations()?.first()?;
-    Some(Isometry3::from_parts(Translation3::new(place[(0, 0)], place[(0, 1)], place[(0, 2)]), orientation))
 }

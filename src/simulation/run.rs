@@ -35,7 +35,7 @@ pub fn demonstrate(setup: &Setup, progress: &dyn Progress) -> Result<(Dataset, H
     let dataset = match &setup.experiment.demonstrations {
         DemonstrationSource::Teach(plan) => taught(setup, plan, progress, &mut history)?,
         DemonstrationSource::Dataset(folder) => {
-            let dataset = Dataset::read(folder)?;
+            let dataset = setup.in_space(Dataset::read(folder)?)?;
             setup.fits(&dataset)?;
             dataset
         }
@@ -55,7 +55,8 @@ pub fn perform(
     progress: &dyn Progress,
 ) -> Result<RunOutcome, SimulationError> {
     let started = progress.elapsed_s();
-    let plan = learning::generate(&learned.skill, &setup.experiment.question(), 1.0 / setup.experiment.log_rate_hz, 1.0)?;
+    let question = setup.experiment.question();
+    let plan = setup.with_place(learning::generate(&learned.skill, &question, 1.0 / setup.experiment.log_rate_hz, 1.0)?)?;
     progress.phase("execute", 0);
     let executed = execute(setup, &learned.skill)?;
     let mut report = learned.report.clone();
@@ -122,7 +123,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     history.lessons = lessons.into_iter().map(seen).collect();
     history.close("replay", replays.iter().map(|(_, _, steps)| *steps).sum(), started, progress);
     Ok(Dataset {
-        motion: ["x_m", "y_m", "z_m"].map(String::from).to_vec(),
+        motion: setup.taught_motion(),
         wrench: ["fx_n", "fy_n", "fz_n"].map(String::from).to_vec(),
         parameter_source: ParameterSource::Given,
         demonstrations: replays.into_iter().map(|(demonstration, _, _)| demonstration).collect(),

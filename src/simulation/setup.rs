@@ -87,6 +87,11 @@ impl Setup {
         self.arm.clone()
     }
 
+    /// Number of the working arm's joints.
+    pub(super) fn joints(&self) -> usize {
+        self.arm.joints()
+    }
+
     /// A controller of the other arm.
     pub(super) fn hold(&self) -> Option<HoldPosture> {
         let settings = &self.experiment.robot;

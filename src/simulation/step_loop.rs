@@ -32,14 +32,28 @@ impl<C: Controller> StepLoop<'_, C> {
     pub(super) fn run(
         &mut self,
         steps: u64,
-        mut before: impl FnMut(&mut C, &World),
+        before: impl FnMut(&mut C, &World),
         mut publish: impl FnMut(&Published<C>),
     ) -> Result<(), SimulationError> {
+        let always = |now: &Published<C>| {
+            publish(now);
+            true
+        };
+        self.run_while(steps, before, always).map(|_| ())
+    }
+
+    /// The same for at most `steps` steps: the one after which `publish` says no is the last. Returns how many there were.
+    pub(super) fn run_while(
+        &mut self,
+        steps: u64,
+        mut before: impl FnMut(&mut C, &World),
+        mut publish: impl FnMut(&Published<C>) -> bool,
+    ) -> Result<u64, SimulationError> {
         let joints = self.world.arm_joints();
         let mut observation = Observation::zero(joints);
         let mut command = Command::idle(joints);
         let mut idle = IdleArm::new(self.world.idle_joints());
-        for _ in 0..steps {
+        for step in 1..=steps {
             sense(self.world, self.sensors, &mut observation);
             before(self.controller, self.world);
             self.controller.decide(&observation, &mut command);
@@ -47,7 +61,7 @@ impl<C: Controller> StepLoop<'_, C> {
                 idle.decide(self.world, hold);
             }
             let hand = self.person.act(self.world, self.step_s);
-            publish(&Published {
+            let goes_on = publish(&Published {
                 world: self.world,
                 controller: self.controller,
                 observation: &observation,
@@ -56,8 +70,11 @@ impl<C: Controller> StepLoop<'_, C> {
             });
             act(self.world, &command, &idle.command, hand);
             self.world.advance()?;
+            if !goes_on {
+                return Ok(step);
+            }
         }
-        Ok(())
+        Ok(steps)
     }
 }
 

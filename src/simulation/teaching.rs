@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, Isometry3};
 use super::guide_path::GuidePath;
 use super::person::Teacher;
 use super::setup::Setup;
+use super::space::joint_columns;
 use super::step_loop::{Published, StepLoop};
 use super::{LOOKS_HZ, LessonLook, SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
@@ -23,8 +24,10 @@ pub(super) struct Lesson {
     pub parameters: Parameters,
     /// Joint angles at the start (rad).
     pub start_posture: Vec<f64>,
-    /// What the encoders saw.
+    /// What the encoders saw, as poses of the tool.
     pub path: ToolPath,
+    /// The same as joint angles (rad).
+    pub joints: Vec<Vec<f64>>,
     /// What somebody who stood beside it saw.
     pub looks: Vec<LessonLook>,
     /// Hash of the world's states.
@@ -53,7 +56,8 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
     let mut controller = ZeroGravity::new(setup.arm(), plan.zero_gravity_damping_nms_per_rad);
     let steps = setup.steps(plan.duration_s);
     let every = setup.steps(1.0 / plan.record_rate_hz).max(1);
-    let mut recorder = PathRecorder { arm: setup.arm(), path: ToolPath { times_s: Vec::new(), poses: Vec::new(), gripper: Vec::new() } };
+    let path_so_far = ToolPath { times_s: Vec::new(), poses: Vec::new(), gripper: Vec::new() };
+    let mut recorder = PathRecorder { arm: setup.arm(), path: path_so_far, joints: Vec::new() };
     let (mut looks, look_every) = (Vec::new(), setup.steps(1.0 / LOOKS_HZ).max(1));
     let mut hold = setup.hold();
     let mut run = StepLoop {
@@ -83,6 +87,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         parameters: parameters.clone(),
         start_posture,
         path: recorder.path,
+        joints: recorder.joints,
         looks,
         state_hash: world.state_hash(),
         steps: steps + 1,
@@ -106,23 +111,24 @@ fn look(now: &Published<ZeroGravity>, objects: usize) -> LessonLook {
 pub(super) fn demonstration(setup: &Setup, lesson: &Lesson, wrench: &[[f64; 6]]) -> Result<Demonstration, SimulationError> {
     let path = &lesson.path;
     let samples = path.times_s.len().min(wrench.len());
-    let values = DMatrix::from_fn(samples, COLUMNS.len(), |i, j| {
+    let columns: Vec<String> = COLUMNS.map(str::to_owned).into_iter().chain(joint_columns(setup.joints())).collect();
+    let values = DMatrix::from_fn(samples, columns.len(), |i, j| {
         let (p, q) = (&path.poses[i].translation.vector, &path.poses[i].rotation.coords);
         match j {
             0..=2 => p[j],
             3..=6 => q[j - 3],
             7..=12 => wrench[i][j - 7],
-            _ => path.gripper[i],
+            13 => path.gripper[i],
+            _ => lesson.joints[i][j - COLUMNS.len()],
         }
     });
-    let columns = COLUMNS.iter().map(|name| (*name).to_owned()).collect();
     let trajectory = Trajectory::new(path.times_s[..samples].to_vec(), columns, values)?;
     let theta = |names: &[String]| names.iter().filter_map(|name| Some((name.clone(), lesson.parameters.get(name)?))).collect();
     let experiment = &setup.experiment;
     Ok(Demonstration { name: lesson.name.clone(), trajectory, theta_m: theta(&experiment.theta_m), theta_f: theta(&experiment.theta_f) })
 }
 
-/// Columns of a taught demonstration besides time.
+/// Columns of a taught demonstration besides time; the joints follow.
 const COLUMNS: [&str; 14] = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw", "fx_n", "fy_n", "fz_n", "tx_nm", "ty_nm", "tz_nm", "gripper"];
 
 /// `block_height_0.17_toy_lateral_-0.06`.
@@ -134,6 +140,7 @@ fn demonstration_name(plan: &TeachingPlan, parameters: &Parameters) -> String {
 struct PathRecorder {
     arm: ArmModel,
     path: ToolPath,
+    joints: Vec<Vec<f64>>,
 }
 
 impl PathRecorder {
@@ -141,5 +148,6 @@ impl PathRecorder {
         self.path.times_s.push(time_s);
         self.path.poses.push(self.arm.tool_pose(q));
         self.path.gripper.push(gripper);
+        self.joints.push(q.to_vec());
     }
 }

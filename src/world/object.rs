@@ -3,49 +3,9 @@
 //! An object says what it is and where it stands; [`super::scene`] builds it in the engine. A quantity of an object may be a number or the
 //! name of a task parameter, so that one file describes every setting in which a skill is taught and executed.
 
-use nalgebra::{Point3, Vector2, Vector3};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 
-/// The task parameters of one setting by name (for example `block_height_m`), in the order of the scenario file. Values in SI.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Parameters(pub Vec<(String, f64)>);
-
-impl Parameters {
-    /// The value of the parameter `name`, if this setting has it.
-    pub fn get(&self, name: &str) -> Option<f64> {
-        self.0.iter().find(|(key, _)| key == name).map(|(_, value)| *value)
-    }
-
-    /// A copy in which the given parameters have the given values; a name that is new is appended.
-    pub fn with(&self, changes: &[(String, f64)]) -> Self {
-        let mut changed = self.clone();
-        for (name, value) in changes {
-            match changed.0.iter_mut().find(|(key, _)| key == name) {
-                Some(entry) => entry.1 = *value,
-                None => changed.0.push((name.clone(), *value)),
-            }
-        }
-        changed
-    }
-}
-
-/// A number, or the name of the task parameter that gives it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Quantity {
-    /// The number itself, in the unit of its key.
-    Value(f64),
-    /// The name of a task parameter.
-    Parameter(String),
-}
-
-impl Quantity {
-    /// The number in this setting. An unknown parameter name is NaN; scenario validation refuses it beforehand.
-    pub fn resolve(&self, parameters: &Parameters) -> f64 {
-        match self {
-            Self::Value(value) => *value,
-            Self::Parameter(name) => parameters.get(name).unwrap_or(f64::NAN),
-        }
-    }
-}
+use super::{Parameters, Quantity};
 
 /// One object of the scene. Lengths in metres, in the world frame (the robot's base frame: x forward, y left, z up).
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +16,12 @@ pub struct Object {
     pub center_m: Vector2<f64>,
     /// Added to the centre along x (m): the lateral place that may vary from setting to setting.
     pub lateral_offset_m: Quantity,
+    /// Added to the centre along y (m).
+    pub offset_y_m: Quantity,
+    /// Added to the height at which it stands (m).
+    pub raised_m: Quantity,
+    /// Turn about the vertical through its centre (rad).
+    pub yaw_rad: Quantity,
     /// What it is.
     pub kind: ObjectKind,
 }
@@ -69,8 +35,8 @@ pub enum ObjectKind {
         size_m: Vector2<f64>,
         /// Height of the top in the world frame (m).
         top_height_m: f64,
-        /// Coefficient of friction of the top.
-        friction: f64,
+        /// Coefficient of friction of the top; what two things have in common is the mean of theirs.
+        friction: Quantity,
     },
     /// A fixed U: a base with a post at either end in x; the arm passes along y, over the base and between the posts.
     UBlock {
@@ -84,26 +50,50 @@ pub enum ObjectKind {
         post_width_m: f64,
         /// Extent of the block along y (m).
         thickness_m: f64,
+        /// Coefficient of friction.
+        friction: Quantity,
     },
     /// A soft round toy that can be grasped.
     Ball {
         /// Radius (m).
         radius_m: f64,
         /// Mass (kg).
-        mass_kg: f64,
+        mass_kg: Quantity,
         /// Coefficient of friction.
-        friction: f64,
+        friction: Quantity,
         /// Rolling resistance as angular damping (1/s): a soft toy does not roll on.
         rolling_damping_per_s: f64,
     },
-    /// A box that can be pushed.
+    /// A box.
     Box {
         /// Extent along x, y, z (m).
         size_m: Vector3<f64>,
-        /// Mass, evenly spread (kg).
-        mass_kg: f64,
-        /// Coefficient of friction; what two things have in common is the mean of theirs.
-        friction: f64,
+        /// What it weighs and how it slides.
+        body: Solid,
+    },
+    /// An upright cylinder: a peg, a cup, a tin.
+    Cylinder {
+        /// Radius (m).
+        radius_m: f64,
+        /// Height (m).
+        height_m: f64,
+        /// What it weighs and how it slides.
+        body: Solid,
+    },
+    /// A level plate on a spring, which yields downward when it is pressed: a mat, a scale, a soft board.
+    SpringPlate {
+        /// Extent along x, y and z (m).
+        size_m: Vector3<f64>,
+        /// How far its underside is from what it stands on while nothing presses (m): as far as it can yield.
+        travel_m: f64,
+        /// Stiffness of the spring (N/m).
+        stiffness_n_per_m: Quantity,
+        /// Damping of the spring (N s/m).
+        damping_ns_per_m: f64,
+        /// Mass of the plate, which the spring carries at its place of rest (kg).
+        mass_kg: Quantity,
+        /// Coefficient of friction.
+        friction: Quantity,
     },
     /// A fixed open box.
     Basket {
@@ -113,39 +103,83 @@ pub enum ObjectKind {
         wall_height_m: f64,
         /// Thickness of walls and floor (m).
         wall_thickness_m: f64,
+        /// Coefficient of friction.
+        friction: Quantity,
     },
 }
 
+/// What a solid thing weighs and how it slides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    /// Mass, evenly spread (kg).
+    pub mass_kg: Quantity,
+    /// Coefficient of friction; what two things have in common is the mean of theirs.
+    pub friction: Quantity,
+    /// Whether it is fixed to the world instead of free to move.
+    pub fixed: bool,
+}
+
 impl Object {
+    /// An object whose centre is `center_m` (m), level and not turned.
+    pub fn new(name: &str, center_m: Vector2<f64>, kind: ObjectKind) -> Self {
+        let none = || Quantity::Value(0.0);
+        Self { name: name.to_owned(), center_m, lateral_offset_m: none(), offset_y_m: none(), raised_m: none(), yaw_rad: none(), kind }
+    }
+
     /// The centre in the horizontal plane in this setting (m).
     pub fn center(&self, parameters: &Parameters) -> Vector2<f64> {
-        self.center_m + Vector2::new(self.lateral_offset_m.resolve(parameters), 0.0)
+        self.center_m + Vector2::new(self.lateral_offset_m.resolve(parameters), self.offset_y_m.resolve(parameters))
     }
 
     /// Whether it moves when it is pushed.
     pub fn is_movable(&self) -> bool {
-        matches!(self.kind, ObjectKind::Ball { .. } | ObjectKind::Box { .. })
+        self.is_free() || matches!(self.kind, ObjectKind::SpringPlate { .. })
     }
 
-    /// The point that way-points refer to (m, world): the middle of a table's top, of a block's base top, of a basket's floor top; the centre
-    /// of a ball or box that rests on the surface at `support_height_m`.
-    pub fn anchor(&self, parameters: &Parameters, support_height_m: f64) -> Point3<f64> {
-        let height = match &self.kind {
-            ObjectKind::Table { top_height_m, .. } => *top_height_m,
-            ObjectKind::UBlock { base_height_m, .. } => support_height_m + base_height_m.resolve(parameters),
-            ObjectKind::Ball { radius_m, .. } => support_height_m + radius_m,
-            ObjectKind::Box { size_m, .. } => support_height_m + size_m.z / 2.0,
-            ObjectKind::Basket { wall_thickness_m, .. } => support_height_m + wall_thickness_m,
+    /// Whether nothing holds it but what it lies on.
+    pub fn is_free(&self) -> bool {
+        match &self.kind {
+            ObjectKind::Ball { .. } => true,
+            ObjectKind::Box { body, .. } | ObjectKind::Cylinder { body, .. } => !body.fixed,
+            _ => false,
+        }
+    }
+
+    /// Where the object's frame starts (`world_from_object`), its underside on a surface at `support_height_m`: the frame's origin is on that
+    /// surface, or in the middle of a ball, box, cylinder or plate, or of a table's top.
+    pub fn pose(&self, parameters: &Parameters, support_height_m: f64) -> Isometry3<f64> {
+        let middle = match &self.kind {
+            // A table stands on nothing but its own height.
+            ObjectKind::Table { top_height_m, .. } => top_height_m - support_height_m,
+            ObjectKind::Ball { radius_m, .. } => *radius_m,
+            ObjectKind::Box { size_m, .. } => size_m.z / 2.0,
+            ObjectKind::Cylinder { height_m, .. } => height_m / 2.0,
+            ObjectKind::SpringPlate { size_m, travel_m, .. } => travel_m + size_m.z / 2.0,
+            ObjectKind::UBlock { .. } | ObjectKind::Basket { .. } => 0.0,
         };
         let center = self.center(parameters);
-        Point3::from(Vector3::new(center.x, center.y, height))
+        let place = Translation3::new(center.x, center.y, support_height_m + self.raised_m.resolve(parameters) + middle);
+        Isometry3::from_parts(place, UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad.resolve(parameters)))
+    }
+
+    /// The point that way-points refer to (m, world): the middle of a table's top, of a block's base top, of a basket's floor top, of a
+    /// plate's top; the centre of a ball, box or cylinder that stands on the surface at `support_height_m`.
+    pub fn anchor(&self, parameters: &Parameters, support_height_m: f64) -> Point3<f64> {
+        let above = match &self.kind {
+            ObjectKind::UBlock { base_height_m, .. } => base_height_m.resolve(parameters),
+            ObjectKind::Basket { wall_thickness_m, .. } => *wall_thickness_m,
+            ObjectKind::SpringPlate { size_m, .. } => size_m.z / 2.0,
+            _ => 0.0,
+        };
+        Point3::from(self.pose(parameters, support_height_m).translation.vector + Vector3::new(0.0, 0.0, above))
     }
 }
 
 /// The height on which everything but tables stands (m, world): the top of the first table, or the floor at 0 without one.
-pub fn support_height_m(objects: &[Object]) -> f64 {
-    objects
-        .iter()
-        .find_map(|object| if let ObjectKind::Table { top_height_m, .. } = object.kind { Some(top_height_m) } else { None })
-        .unwrap_or(0.0)
+pub fn support_height_m(objects: &[Object], parameters: &Parameters) -> f64 {
+    let top = |object: &Object| match object.kind {
+        ObjectKind::Table { top_height_m, .. } => Some(top_height_m + object.raised_m.resolve(parameters)),
+        _ => None,
+    };
+    objects.iter().find_map(top).unwrap_or(0.0)
 }

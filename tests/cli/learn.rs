@@ -74,6 +74,35 @@ fn every_flag_reaches_the_learner() {
     assert_eq!((&report["skill"]["shaping"], &report["motion_fit"]), (&"lwr".into(), &Value::Null));
 }
 
+/// Contract: flag, override and file say the same thing in the same words, and what was chosen is told with its curve.
+#[test]
+fn the_demonstrations_choose_what_is_called_auto() {
+    let folder = strokes();
+    let file = "[learning]\nstates_min = 2\nstates_max = 4\n[learning.motion]\nkmeans_starts = 0\nstates = \"auto\"\nridge = \"auto\"\n";
+    std::fs::write(folder.path().join("s.toml"), file).expect("written");
+    let choices = |more: &[&str]| {
+        let report = json(&folder.call(&[&["learn", "strokes.csv", "--theta", "start", "--format", "json"], more].concat()));
+        let states = report["skill"]["states"].as_array().map(Vec::len);
+        (report["choices"].clone(), states)
+    };
+    let set = ["states_min=2", "states_max=4", "motion.kmeans_starts=0"].map(|set| format!("--set={set}"));
+    let set: Vec<&str> = set.iter().map(String::as_str).collect();
+    let (chosen, states) = choices(&["--settings", "s.toml"]);
+    assert_eq!((&chosen[0]["setting"], &chosen[1]["setting"]), (&"motion.states".into(), &"motion.ridge".into()));
+    assert_eq!((chosen[0]["curve"].as_array().map(Vec::len), chosen[0]["chosen"].as_f64()), (Some(3), states.map(|n| n as f64)));
+    assert!(chosen[1]["curve"].as_array().is_some_and(|curve| curve.len() > 5));
+    for words in [&["--set=motion.states=auto", "--set=motion.ridge=auto"][..], &["--states", "auto", "--ridge", "auto"]] {
+        assert_eq!(choices(&[&set[..], words].concat()), (chosen.clone(), states), "{words:?}");
+    }
+    let (by_bic, _) = choices(&[&set[..], &["--set=motion.states=auto", "--set=states_criterion=bic"]].concat());
+    assert_ne!(by_bic[0]["curve"], chosen[0]["curve"], "another criterion has another curve");
+    assert_eq!(
+        choices(&["--settings", "s.toml", "--states", "3", "--ridge", "0.1"]).0,
+        serde_json::json!([]),
+        "a number wins over a word below"
+    );
+}
+
 #[test]
 fn settings_come_from_a_file_below_the_flags() {
     let folder = strokes();

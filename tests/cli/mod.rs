@@ -10,6 +10,7 @@ mod planar_run;
 mod program;
 mod real_run;
 mod run_folder;
+mod schemas;
 mod view;
 
 pub use program::{Folder, GOOD, Said, cpdmp};

@@ -39,6 +39,17 @@ fn a_run_tells_the_same_everywhere_and_can_be_repeated() {
     assert_eq!(written, ["demonstrations", "figures", "manifest.json", "report.json", "scenario.toml", "skill.json", "steps.parquet"]);
     assert_eq!(names(&folder.path().join("runs")), ["good-0"]);
 
+    for path in ["runs/good-0", "runs/good-0/manifest.json"] {
+        let inspected = folder.call(&["inspect", path, "--format", "json"]);
+        assert_eq!(inspected.code, Some(0), "{}", inspected.stderr);
+        let found = json(&inspected.stdout);
+        assert_eq!(
+            (&found["kind"], &found["run"]["scenario"], &found["run"]["outcome"]),
+            (&"run".into(), &"good".into(), &"passed".into())
+        );
+        assert_eq!(found["run"]["state_hash"].as_str(), Some(state_hash), "{found}");
+    }
+
     let again = folder.call(&["run", "a.toml", "--format", "json", "--jobs", "1", "-q"]);
     assert_eq!((again.code, again.stderr.as_str()), (Some(0), ""));
     assert_eq!(hash(&again), state_hash, "the same run, on another number of threads");
@@ -92,6 +103,22 @@ fn a_recorded_dataset_stands_for_the_teaching() {
     assert_eq!(said.code, Some(0), "{}{}", said.stdout, said.stderr);
     let phases = json(&said.stdout)["phases"].as_array().expect("a list").iter().map(|phase| phase["name"].clone()).collect::<Vec<_>>();
     assert_eq!(phases, ["learn", "execute"]);
+}
+
+/// Contract: taught demonstrations hold tool and joints, so that one dataset serves a skill of either.
+#[test]
+fn a_skill_of_the_joints_runs_like_one_of_the_tool() {
+    let folder = good();
+    let joints = ["--set=learning.space=joint", "--set=coupling.space=joint", "--set=coupling.enabled=true", "--format=json", "-q"];
+    let taught = folder.call(&[&["run", "a.toml", "--out", "taught"], &joints[..]].concat());
+    assert_eq!(taught.code, Some(0), "{}{}", taught.stdout, taught.stderr);
+    let recorded = ["run", "a.toml", "--out", "again", "--set", "demonstrations=taught/demonstrations"];
+    for more in [&joints[..], &["--format=json", "-q"]] {
+        let said = folder.call(&[&recorded[..], more].concat());
+        assert_eq!(said.code, Some(0), "{}{}", said.stdout, said.stderr);
+        let goal = json(&said.stdout)["criteria"][0]["value"].as_f64().expect("a distance");
+        assert!(goal < 0.01, "{goal} m from the goal");
+    }
 }
 
 #[test]

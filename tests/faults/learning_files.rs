@@ -39,7 +39,11 @@ fn rows_14_and_15_bad_cells_and_times_are_told_with_file_row_and_column() {
     for (bad, parts) in [
         (good.replacen("0.0408,", "0.0408,nan", 1), vec!["0.csv, row 3", "column x_m"]),
         (good.replacen("0.0408,", "-1,", 1), vec!["0.csv, row 3", "column time_s"]),
+        (good.replacen("0.0408,", "0.0408,inf", 1), vec!["0.csv, row 3", "column x_m"]),
+        (good.replacen("\n0.0408,", "\n0.0408,,", 1), vec!["0.csv, row 3"]),
+        (good.replacen("0.0816,", "0.0408,", 1), vec!["0.csv, row 4", "column time_s"]),
         ("time_s,x_m\n0,1\n".to_owned(), vec!["0.csv", "1 sample"]),
+        ("time_s,x_m\n".to_owned(), vec!["0.csv"]),
         (good.replacen("x_m", "y_m", 1), vec!["x_m"]),
     ] {
         let folder = dataset(&[(bad, "{ h_m = 1 }"), (good.clone(), "{ h_m = 2 }")]);
@@ -69,6 +73,57 @@ fn rows_14_and_18_a_constant_column_is_learned_and_too_few_samples_are_refused()
     let said = dataset(&[(csv(3, |s| s), "{}")]).call(&QUICK);
     assert_eq!(said.code, Some(4), "{}{}", said.stdout, said.stderr);
     assert!(said.stderr.contains("samples"), "{}", said.stderr);
+}
+
+#[test]
+fn row_15_demonstrations_of_other_parameters_are_told_apart() {
+    let said = dataset(&[(csv(50, |s| s), "{ h_m = 1 }"), (csv(50, |s| s), "{ w_m = 2 }")]).call(&QUICK);
+    assert_eq!((said.code, said.stdout.as_str()), (Some(3), ""), "{}", said.stderr);
+    assert!(["h_m", "w_m"].iter().all(|name| said.stderr.contains(name)), "{}", said.stderr);
+}
+
+/// Three heights of a bow, so that the parameter matters.
+fn bows() -> Folder {
+    let bow = |height: f64| csv(80, move |s| 0.4 * s + height * (std::f64::consts::PI * s).sin());
+    dataset(&[(bow(0.1), "{ h_m = 0.1 }"), (bow(0.2), "{ h_m = 0.2 }"), (bow(0.4), "{ h_m = 0.4 }")])
+}
+
+#[test]
+fn rows_17_and_20_far_away_queries_are_finite_told_and_can_be_denied() {
+    let folder = bows();
+    assert_eq!(folder.call(&[&QUICK[..], &["--out", "s.json"]].concat()).code, Some(0));
+    for far in ["1e6", "-1e6"] {
+        let theta = format!("h_m={far}");
+        let said = folder.call(&["generate", "s.json", "--theta", &theta]);
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+        assert!(said.stderr.contains("warning") && said.stderr.contains("of its range"), "{}", said.stderr);
+        let mut numbers = said.stdout.lines().skip(1).flat_map(|line| line.split(',')).map(|cell| cell.parse::<f64>().expect("a number"));
+        assert!(numbers.all(f64::is_finite), "{far}");
+        assert_eq!(folder.call(&["generate", "s.json", "--theta", &theta, "--deny-extrapolation", "1"]).code, Some(10));
+    }
+}
+
+#[test]
+fn row_18_more_states_than_samples_end_with_4_and_both_numbers() {
+    let said = bows().call(&["learn", "d", "--states", "200", "--set", "rate_hz=5", "--out", "s.json"]);
+    assert_eq!((said.code, said.stdout.as_str()), (Some(4), ""), "{}", said.stderr);
+    assert!(said.stderr.contains("3 demonstrations with 33 samples cannot support 200 states"), "{}", said.stderr);
+}
+
+#[test]
+fn row_19_a_fit_that_did_not_settle_is_warned_of() {
+    let said = bows().call(&[&QUICK[..], &["--max-iterations", "2"]].concat());
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(said.stdout.contains("the motion model used all iterations without converging"), "{}", said.stdout);
+}
+
+#[test]
+fn row_22_a_threshold_that_separates_nothing_is_warned_of_with_the_values() {
+    for (sigma, who) in [("1.0", "no state complies"), ("1e-12", "every state complies")] {
+        let said = bows().call(&[&QUICK[..], &["--set", &format!("compliance.threshold_m2={sigma}")]].concat());
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+        assert!(said.stdout.contains(who) && said.stdout.contains("threshold"), "{who}: {}", said.stdout);
+    }
 }
 
 fn skill_text() -> &'static str {

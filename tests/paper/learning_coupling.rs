@@ -89,6 +89,29 @@ fn betas_that_fit_no_state_are_refused() {
     assert!(refused.contains("motion [x_m, y_m, z_m]") && refused.contains("in rad"), "{refused}");
 }
 
+/// A skill without a force model expects nothing: what it is told acts as it is, what it is not told does not, and the shapes are named.
+#[test]
+fn without_a_force_model_the_whole_force_acts() {
+    let bare = Skill { force: None, ..skill().clone() };
+    let theta_m = vec![("block_height_m".to_owned(), 0.235)];
+    let asked =
+        ExecutionSettings { theta_m, coupling: coupled(CouplingMode::MinimiseForceError, ForceConvention::OnRobot), ..Default::default() };
+    let mut pushed = SkillExecution::new(&bare, &asked).unwrap();
+    assert_eq!(pushed.wrench_columns(), ["fx_n", "fy_n", "fz_n"]);
+    for _ in 0..1500 {
+        let state = pushed.step(&StepInput { wrench: &[2.0, 0.0, -1.0], ..StepInput::of(0.01) });
+        assert!(state.wrench_valid && state.expected_wrench.amax() == 0.0);
+    }
+    let moved = &pushed.state().deviation - nalgebra::DVector::from_row_slice(&[0.02, 0.0, -0.01]);
+    assert!(moved.norm() < 1e-6, "C F = 0.01 m/N times the force, off by {moved}");
+    let message = pushed.check_input(&StepInput { wrench: &[1.0], ..StepInput::of(0.01) }).unwrap_err().to_string();
+    assert!(message.contains("the wrench has 1 values, but the skill takes 3"), "{message}");
+    let state = pushed.step(&StepInput { wrench: &[1.0], ..StepInput::of(0.01) });
+    assert!(!state.wrench_valid && state.zeta.amax() == 0.0);
+    let told = ExecutionSettings { theta_f: vec![("mass_kg".to_owned(), 1.0)], ..asked };
+    assert!(SkillExecution::new(&bare, &told).unwrap_err().to_string().contains("no force model"));
+}
+
 fn names(list: &[&str]) -> Vec<String> {
     list.iter().map(|name| (*name).to_owned()).collect()
 }

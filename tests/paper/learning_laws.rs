@@ -74,8 +74,8 @@ proptest! {
     }
 }
 
-/// Random groups of one state over three demonstrations.
-fn random_groups(seed: u64) -> (Vec<Group>, Vec<DVector<f64>>) {
+/// Random groups of one state over four demonstrations, and what the model sees of their two parameters.
+fn random_groups(seed: u64, features: Features) -> (Vec<Group>, Vec<DVector<f64>>) {
     let mut random = stream(seed, "groups", 0);
     let mut draw = |r, c| DMatrix::from_fn(r, c, |_, _| standard_normal(&mut random));
     let thetas: Vec<DVector<f64>> = (0..4).map(|_| draw(2, 1).column(0).into_owned()).collect();
@@ -84,7 +84,9 @@ fn random_groups(seed: u64) -> (Vec<Group>, Vec<DVector<f64>>) {
         let scatter = &spread * spread.transpose() + DMatrix::identity(3, 3);
         Group { count: 3.0 + k as f64, mean: draw(3, 1).column(0).into_owned(), scatter }
     });
-    (groups.collect(), thetas)
+    let groups = groups.collect();
+    let map = FeatureMap::of(features, &thetas, seed);
+    (groups, thetas.iter().map(|theta| map.at(theta)).collect())
 }
 
 /// `Q` of one state, straight from its definition in `phmm::maximisation`.
@@ -101,11 +103,13 @@ fn objective(groups: &[Group], thetas: &[DVector<f64>], penalty: &Penalty, w: &D
 
 #[test]
 fn the_maximisation_step_is_a_stationary_point_of_its_objective() {
-    for seed in 0..20 {
-        for (weights_on_phase, ridge) in [(true, 0.0), (true, 2.0), (false, 0.0), (false, 2.0)] {
-            let (groups, thetas) = random_groups(seed);
+    let options = [(true, 0.0), (true, 2.0), (false, 0.0), (false, 2.0)];
+    for (seed, features) in (0..20).flat_map(|seed| FEATURES.map(|features| (seed, features))) {
+        for (weights_on_phase, ridge) in options {
+            let (groups, thetas) = random_groups(seed, features);
+            let features_seen = thetas[0].len();
             let penalty = Penalty { ridge, floor: 1e-9, weights_on_phase, parametric: true, fixed_covariance: false };
-            let present = (DMatrix::zeros(3, 2), DMatrix::identity(3, 3));
+            let present = (DMatrix::zeros(3, features_seen), DMatrix::identity(3, 3));
             let (w, mean, c) =
                 maximise_state(&groups.iter().collect::<Vec<_>>(), &thetas.iter().collect::<Vec<_>>(), (&present.0, &present.1), &penalty)
                     .unwrap();
@@ -119,9 +123,10 @@ fn the_maximisation_step_is_a_stationary_point_of_its_objective() {
                     let step = DMatrix::from_fn(3, 3, |r, s| if (r, s) == (i, j) || (r, s) == (j, i) { h } else { 0.0 });
                     assert!(slope(q(&w, &mean, &(&c + &step)), q(&w, &mean, &(&c - &step))) < 1e-5, "covariance {i} {j}, seed {seed}");
                 }
-                for j in (0..2).filter(|_| i > 0 || weights_on_phase) {
-                    let step = DMatrix::from_fn(3, 2, |r, s| if (r, s) == (i, j) { h } else { 0.0 });
-                    assert!(slope(q(&(&w + &step), &mean, &c), q(&(&w - &step), &mean, &c)) < 1e-6, "weight {i} {j}, seed {seed}");
+                for j in (0..features_seen).filter(|_| i > 0 || weights_on_phase) {
+                    let step = DMatrix::from_fn(3, features_seen, |r, s| if (r, s) == (i, j) { h } else { 0.0 });
+                    let slope = slope(q(&(&w + &step), &mean, &c), q(&(&w - &step), &mean, &c));
+                    assert!(slope < 1e-6, "weight {i} {j}, seed {seed}, {features:?}: {slope}");
                 }
             }
         }
@@ -131,7 +136,7 @@ fn the_maximisation_step_is_a_stationary_point_of_its_objective() {
 #[test]
 fn a_floored_step_still_raises_the_objective_above_any_feasible_present() {
     for seed in 0..200 {
-        let (groups, thetas) = random_groups(seed);
+        let (groups, thetas) = random_groups(seed, Features::Linear);
         let (references, parameters): (Vec<_>, Vec<_>) = (groups.iter().collect(), thetas.iter().collect());
         let penalty = Penalty { ridge: 0.5, floor: 1.5, weights_on_phase: false, parametric: true, fixed_covariance: false };
         let mut present = (DMatrix::zeros(3, 2), DVector::zeros(3), DMatrix::identity(3, 3) * 2.0);

@@ -125,6 +125,33 @@ fn a_moving_goal_is_followed_without_a_lag_and_reached_when_it_stops() {
     assert!(*execution.step(&StepInput::of(0.01)) == before);
 }
 
+/// Held off its path while its goal moves: the phase waits, the goal is followed all the same, and reached when it stops.
+#[test]
+fn a_goal_that_moves_while_the_phase_waits_is_reached_by_both_integrators() {
+    for integrator in [Integrator::ExactHold, Integrator::RungeKutta4] {
+        let phase_stopping = Some(PhaseStopping { gain: 1e3, slowest: 0.2 });
+        let mut execution = SkillExecution::new(skill(), &ExecutionSettings { integrator, phase_stopping, ..settings() }).unwrap();
+        (0..800).for_each(|_| _ = execution.step(&StepInput::of(0.01)));
+        let (velocity, g) = ([0.02, -0.01, 0.005], execution.goal().clone());
+        assert!(execution.set_goal(g.as_slice(), &velocity));
+        let (from, u) = (execution.state().time_s, execution.state().u);
+        let place = execution.state().position.clone() + DVector::from_element(3, 0.2);
+        for _ in 0..500 {
+            let measured = Some(Measured { position: place.as_slice(), velocity: &[0.0; 3], orientation: None });
+            execution.step(&StepInput { measured, ..StepInput::of(0.01) });
+        }
+        let rate = (execution.state().u - u) * execution.duration_s() / 5.0;
+        assert!((rate - 0.2).abs() < 1e-3, "{integrator:?}: waits at {rate}");
+        (0..3500).for_each(|_| _ = execution.step(&StepInput::of(0.01)));
+        let goal = &g + DVector::from_row_slice(&velocity) * (execution.state().time_s - from);
+        assert!((execution.goal() - &goal).norm() < 1e-9, "the goal moves in real time");
+        assert!((&execution.state().position - &goal).norm() < 1e-5, "{integrator:?}: {}", (&execution.state().position - &goal).norm());
+        execution.set_goal(goal.as_slice(), &[0.0; 3]);
+        (0..1500).for_each(|_| _ = execution.step(&StepInput::of(0.01)));
+        assert!((&execution.state().position - &goal).norm() < 1e-9);
+    }
+}
+
 /// Other formulations scale the forcing by `g - x0` and blow up where it is small.
 #[test]
 fn a_movement_that_ends_where_it_starts_keeps_its_shape() {

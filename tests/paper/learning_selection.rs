@@ -1,11 +1,13 @@
 //! What left-out demonstrations decide: errors on movements that were not seen, the ridge, the number of states, parameters that are the
 //! start of the movement.
 
+use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::demonstration::{Dataset, Demonstration, ParameterSource, Trajectory};
-use cpdmp::learning::selection::{StatesCriterion, StatesSearch, cross_validate, free_parameters, reproduction};
-use cpdmp::learning::{ExecutionSettings, LearningSettings, generate, learn};
+use cpdmp::learning::phmm::{PhmmSettings, Sequence, Topology, fit};
+use cpdmp::learning::selection::{Choices, Selection, StatesCriterion, StatesSearch, cross_validate, free_parameters, reproduction};
+use cpdmp::learning::{ExecutionSettings, FeatureMap, Features, LearningSettings, generate, learn};
 use cpdmp::math::{standard_normal, stream};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// A person's strokes from different places to one goal: an arc, with their own timing, bow and tremor.
 fn strokes(count: usize, seed: u64) -> Dataset {
@@ -83,9 +85,9 @@ fn ridge_and_states_are_chosen_with_their_curves() {
     let data = strokes(6, 4).with_parameter_source(ParameterSource::Start);
     for criterion in [StatesCriterion::Bic, StatesCriterion::CrossValidation] {
         let search = StatesSearch { criterion, min: 2, max: 7 };
-        let settings = LearningSettings { automatic_ridge: true, states_search: Some(search), ..small() };
+        let settings = LearningSettings { motion_selection: Selection { states: Some(search), ridge: true }, ..small() };
         let learned = learn(&data, &settings, 5).unwrap();
-        let (states, ridge) = (learned.report.states_choice.unwrap(), learned.report.ridge_choice.unwrap());
+        let (states, ridge) = (learned.report.motion_choices.states.unwrap(), learned.report.motion_choices.ridge.unwrap());
         assert_eq!((states.curve.len(), learned.skill.motion.states()), (6, states.states));
         assert!(states.curve.iter().all(|c| c.score >= states.curve.iter().find(|b| b.states == states.states).unwrap().score));
         assert!(ridge.curve.iter().all(|c| c.error >= ridge.curve.iter().find(|b| b.ridge == ridge.ridge).unwrap().error));
@@ -93,12 +95,68 @@ fn ridge_and_states_are_chosen_with_their_curves() {
     }
 }
 
+/// Short movements of two columns under these parameters, one row each.
+fn sequences(thetas: &[&[f64]]) -> Vec<Sequence> {
+    let values = |theta: &[f64]| (0..20).flat_map(|t| [f64::from(t) / 19.0, theta[0] * f64::from(t), (0.3 * f64::from(t)).sin()]).collect();
+    thetas.iter().map(|theta| Sequence { values: values(theta), dimension: 3, theta: DVector::from_row_slice(theta) }).collect()
+}
+
 #[test]
-fn free_parameters_are_counted() {
-    let data = strokes(4, 6).with_parameter_source(ParameterSource::Start);
-    let settings = small();
-    let learned = learn(&data, &settings, 1).unwrap();
-    let cpdmp::learning::cpdmp::Shaping::Phmm(model) = &learned.skill.motion.shaping else { panic!() };
-    // 6 states of 3 means, 6 covariances, 2 x 2 weights, and 5 ways on.
-    assert_eq!(free_parameters(model, &settings.motion), 6 * (3 + 6 + 4) + 5);
+fn free_parameters_are_those_that_the_demonstrations_decide() {
+    let three: [&[f64]; 4] = [&[0.1], &[0.2], &[0.2], &[0.4]];
+    let two: [&[f64]; 3] = [&[0.1], &[0.1], &[0.4]];
+    let plane: [&[f64]; 6] = [&[0.0, 0.0], &[1.0, 0.0], &[0.0, 1.0], &[1.0, 1.0], &[2.0, 1.0], &[1.0, 2.0]];
+    let line: [&[f64]; 3] = [&[1.0, 2.0], &[2.0, 4.0], &[3.0, 6.0]];
+    let same: [&[f64]; 2] = [&[0.3], &[0.3]];
+    let rbf = Features::Rbf { centres: 9, width: 1.5 };
+    // How many numbers a row of W has: a curve through n values has n - 1 beside its mean, whatever its features.
+    let rows: [(&[&[f64]], Features, usize); 10] = [
+        (&three, Features::Linear, 1),
+        (&three, Features::Quadratic, 2),
+        (&three, rbf, 2),
+        (&two, Features::Quadratic, 1),
+        (&two, rbf, 1),
+        (&plane, Features::Linear, 2),
+        (&plane, Features::Quadratic, 5),
+        (&plane, rbf, 5),
+        (&line, Features::Linear, 1),
+        (&same, Features::Quadratic, 0),
+    ];
+    for (thetas, features, decided) in rows {
+        let seen = sequences(thetas);
+        let map = FeatureMap::of(features, &seen.iter().map(|s| s.theta.clone()).collect::<Vec<_>>(), 0);
+        let seen: Vec<Sequence> = seen.into_iter().map(|s| s.seen_through(&map)).collect();
+        for (weights_on_phase, rows) in [(false, 2), (true, 3)] {
+            for (topology, ways) in [(Topology::LeftToRight, 3), (Topology::Ergodic, 3 + 4 * 3)] {
+                let settings = PhmmSettings {
+                    states: 4,
+                    weights_on_phase,
+                    topology,
+                    features,
+                    kmeans_starts: 0,
+                    max_iterations: 1,
+                    ..Default::default()
+                };
+                let model = fit(&seen, &settings, 0).unwrap().model;
+                // 4 states of 3 means, 6 covariances and the weights, and the ways on.
+                let expected = 4 * (3 + 6 + rows * decided) + ways;
+                assert_eq!(free_parameters(&model, &settings, &seen), expected, "{features:?}, {thetas:?}, {topology:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_force_model_is_chosen_by_its_own_demonstrations() {
+    let task = PickAndPlace { rate_hz: 20.0, ..PickAndPlace::default() };
+    let search = StatesSearch { criterion: StatesCriterion::CrossValidation, min: 2, max: 4 };
+    let mut settings = LearningSettings { rate_hz: 5.0, force_selection: Selection { states: Some(search), ridge: true }, ..small() };
+    settings.force.kmeans_starts = 0;
+    let learned = learn(&task.dataset(3), &settings, 3).unwrap();
+    let (states, ridge) = (learned.report.force_choices.states.unwrap(), learned.report.force_choices.ridge.unwrap());
+    assert_eq!(learned.report.motion_choices, Choices::default());
+    assert_eq!((learned.skill.force.unwrap().phmm.states(), learned.skill.motion.phmm().unwrap().states()), (states.states, 6));
+    assert!(states.curve.iter().all(|c| c.score >= states.curve.iter().find(|b| b.states == states.states).unwrap().score));
+    // Nothing is told to the force model of this task, so there is no weight whose prior could be chosen.
+    assert!(ridge.curve.is_empty() && ridge.ridge == settings.force.ridge);
 }

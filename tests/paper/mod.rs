@@ -2,11 +2,14 @@
 
 mod dataset_damage;
 mod dataset_import;
+mod execution_modes;
 mod learning_coupling;
 mod learning_datasets;
 mod learning_execution;
+mod learning_hostile;
 mod learning_laws;
 mod learning_motion;
+mod learning_noise;
 mod learning_orientation;
 mod learning_pick_and_place;
 mod learning_selection;
@@ -15,4 +18,5 @@ mod phmm_laws;
 mod pick_and_place;
 mod planar_obstacle_avoidance;
 mod planar_two_sided;
+mod push_object;
 mod tpgmm;

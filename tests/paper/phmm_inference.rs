@@ -3,6 +3,7 @@
 use cpdmp::demonstration::Trajectory;
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::learning::{Features, InferenceSettings, InferenceStatus, LearningSettings, ShapingKind, Skill, infer, learn};
+use cpdmp::math::{stream, uniform};
 
 fn taught(features: Features, heights: &[f64], seed: u64) -> Skill {
     let mut settings = LearningSettings::default();
@@ -39,6 +40,33 @@ fn the_block_height_shows_in_the_first_thirty_percent() {
     let (rms, score) = ((squares / count).sqrt(), (scores / count).sqrt());
     assert!(rms < 0.0035, "rms error {rms} m");
     assert!((0.6..1.6).contains(&score), "errors are {score} times the reported standard deviation");
+}
+
+/// Contract: the reported standard deviation is that of the errors. Skills, teachers and movements of seeds that nothing was tuned on.
+#[test]
+fn ninety_five_percent_intervals_hold_the_truth_as_often_as_they_say_and_are_not_vacuous() {
+    let (mut inside, mut count, mut scores, mut widest) = (0u32, 0u32, 0.0, 0.0f64);
+    for seed in 50..56 {
+        let skill = taught(Features::Linear, &[0.17, 0.20, 0.26], seed);
+        let mut random = stream(seed, "heights", 0);
+        for k in 0..20 {
+            let (height, toy) = (uniform(&mut random, 0.17, 0.26), uniform(&mut random, -0.06, 0.06));
+            let found = infer(&skill, &first_part(height, toy, 0.3, 10_000 + 100 * seed + k), &InferenceSettings::default()).unwrap();
+            let (error, sd) = (found.theta[0].1 - height, found.covariance[(0, 0)].sqrt());
+            inside += u32::from(error.abs() < 1.96 * sd);
+            scores += (error / sd).powi(2);
+            widest = widest.max(sd);
+            count += 1;
+        }
+    }
+    let (share, score) = (f64::from(inside) / f64::from(count), (scores / f64::from(count)).sqrt());
+    println!("{inside} of {count} inside ({share:.3}), rms z-score {score:.2}, widest sd {:.2} mm", widest * 1e3);
+    // Three standard deviations of a binomial count of 120 at 0.95.
+    let slack = 3.0 * (0.95 * 0.05 / f64::from(count)).sqrt();
+    assert!((0.95 - slack..=1.0).contains(&share), "{inside} of {count} inside");
+    assert!((0.5..1.4).contains(&score), "errors are {score} times the reported standard deviation");
+    // The prior alone, uniform over the 9 cm that were shown, has 26 mm.
+    assert!(widest < 0.25 * 0.09 / 12f64.sqrt(), "a standard deviation of {widest} m says nothing");
 }
 
 #[test]

@@ -10,7 +10,11 @@ const STEP_S: f64 = 1e-3;
 
 #[test]
 fn a_ball_falls_by_g_t_squared_over_two() {
-    let ball = object("ball", [2.0, 2.0], ObjectKind::Ball { radius_m: 0.03, mass_kg: 0.05, friction: 0.8, rolling_damping_per_s: 0.0 });
+    let ball = object(
+        "ball",
+        [2.0, 2.0],
+        ObjectKind::Ball { radius_m: 0.03, mass_kg: 0.05.into(), friction: 0.8.into(), rolling_damping_per_s: 0.0 },
+    );
     let mut world = world(&baxter(), &LEFT_POSTURE, &[ball], [0.0, 0.0, -G], 0.0);
     let start = world.object_pose(0).translation.z;
     for _ in 0..500 {

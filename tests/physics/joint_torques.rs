@@ -75,7 +75,7 @@ fn drives_respect_effort_and_velocity_limits_and_joints_their_range() {
 fn an_arm_that_strikes_a_table_keeps_its_mean_effort_within_the_limits() {
     const STRETCH: usize = 20;
     let robot = baxter();
-    let kind = ObjectKind::Table { size_m: Vector2::new(0.7, 1.3), top_height_m: -0.15, friction: 0.6 };
+    let kind = ObjectKind::Table { size_m: Vector2::new(0.7, 1.3), top_height_m: -0.15, friction: 0.6.into() };
     let mut world = world(&robot, &LEFT_POSTURE, &[object("table", [0.7, 0.25], kind)], G, 0.0);
     let limits: Vec<f64> =
         robot.joints.iter().filter(|j| j.name.starts_with("left_") && j.name.len() == 7).map(|j| j.effort_limit).collect();

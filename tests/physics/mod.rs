@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod joint_torques;
+mod objects;
 mod robot_arm;
 mod robot_dynamics;
 mod robot_inverse_kinematics;

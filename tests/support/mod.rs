@@ -3,7 +3,7 @@
 pub mod hand_made;
 
 use cpdmp::robot::{self, RobotModel};
-use cpdmp::world::{Object, ObjectKind, Parameters, PhysicsSettings, Quantity, World, WorldSettings};
+use cpdmp::world::{Object, ObjectKind, Parameters, PhysicsSettings, Solid, World, WorldSettings};
 use nalgebra::{Vector2, Vector3};
 
 /// The posture of the left arm in the middle of the pick-and-place scene, tool down (rad).
@@ -35,15 +35,16 @@ pub fn world(robot: &RobotModel, posture: &[f64], objects: &[Object], gravity: [
 
 /// An object at `center` in the plane.
 pub fn object(name: &str, center: [f64; 2], kind: ObjectKind) -> Object {
-    Object { name: name.into(), center_m: Vector2::from(center), lateral_offset_m: Quantity::Value(0.0), kind }
+    Object::new(name, Vector2::from(center), kind)
 }
 
 /// A table whose top is at -0.18 m, out of reach of the arms, which fall limp when nobody commands them.
 pub fn table(friction: f64) -> Object {
-    object("table", [3.0, 0.0], ObjectKind::Table { size_m: Vector2::new(0.7, 1.3), top_height_m: -0.18, friction })
+    object("table", [3.0, 0.0], ObjectKind::Table { size_m: Vector2::new(0.7, 1.3), top_height_m: -0.18, friction: friction.into() })
 }
 
 /// A box of 1 kg and 10 cm on that table.
 pub fn cube(friction: f64) -> Object {
-    object("cube", [3.0, -0.4], ObjectKind::Box { size_m: Vector3::new(0.1, 0.1, 0.1), mass_kg: 1.0, friction })
+    let body = Solid { mass_kg: 1.0.into(), friction: friction.into(), fixed: false };
+    object("cube", [3.0, -0.4], ObjectKind::Box { size_m: Vector3::new(0.1, 0.1, 0.1), body })
 }

@@ -14,7 +14,7 @@ use crate::learning::phmm::{Phmm, Sequence, expect, gather};
 use crate::learning::{Gmr, LearningError, SettingFault};
 
 /// Which matrix of a state is held against the threshold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Statistic {
     /// `Sigma_i` itself, as (20) is written: also holds the movement inside the state.

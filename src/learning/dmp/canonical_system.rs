@@ -4,7 +4,7 @@
 pub const DEFAULT_ALPHA: f64 = 4.605_170_185_988_092;
 
 /// What the forcing and force models see of the phase.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PhaseInput {
     /// `u = -ln(s) / alpha = t / tau`: even over the movement.

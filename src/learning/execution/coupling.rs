@@ -94,13 +94,13 @@ impl Coupling {
     }
 }
 
-/// The columns of the wrench that a skill takes.
-pub(super) fn wrench_columns(skill: &Skill, settings: &CouplingSettings) -> Vec<String> {
-    if let Some(force) = &skill.force {
-        return force.columns.clone();
+/// The columns of the wrench that a skill with these motion columns takes: those of its force model (`force`, when it has one), else those
+/// that can act.
+#[must_use]
+pub fn wrench_columns(motion: &[String], force: Option<&[String]>, space: &CouplingSpace) -> Vec<String> {
+    match (force, space) {
+        (Some(columns), _) => columns.to_vec(),
+        (None, CouplingSpace::Joint { .. }) => JACOBIAN_ROWS.map(str::to_owned).to_vec(),
+        (None, CouplingSpace::Task) => motion.iter().filter_map(|c| Some(format!("f{}_n", c.strip_suffix("_m")?))).collect(),
     }
-    if settings.enabled && settings.space != CouplingSpace::Task {
-        return JACOBIAN_ROWS.map(str::to_owned).to_vec();
-    }
-    skill.motion.columns.iter().map(|c| c.strip_suffix("_m").map_or_else(|| c.clone(), |name| format!("f{name}_n"))).collect()
 }

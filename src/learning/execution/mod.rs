@@ -11,6 +11,7 @@ mod skill_state;
 mod step_input;
 mod turning;
 
+pub use coupling::wrench_columns;
 pub use generate::{TaskSpaceState, generate, task_space_states};
 pub use settings::{ExecutionSettings, PhaseStopping};
 pub use skill_execution::SkillExecution;

@@ -38,6 +38,7 @@ pub struct SkillExecution {
     turning: Option<Turning>,
     gripper: Option<GripperProfile>,
     force: Option<ExpectedWrench>,
+    wrench_columns: Vec<String>,
     coupling: Option<Coupling>,
     phase_stopping: Option<PhaseStopping>,
     /// `zeta / K` (d; unit of the columns).
@@ -47,8 +48,8 @@ pub struct SkillExecution {
 }
 
 impl SkillExecution {
-    /// A skill at its start. The wrench columns are those of the force model; a skill without one takes `fNAME_n` for every motion
-    /// column `NAME_m`, in that order (in joint space fx_n, fy_n, fz_n, tx_nm, ty_nm, tz_nm), and expects zero.
+    /// A skill at its start. The wrench columns are those of the force model; a skill without one expects zero of `fNAME_n` for every motion
+    /// column `NAME_m`, in that order (in joint space of fx_n, fy_n, fz_n, tx_nm, ty_nm, tz_nm).
     ///
     /// # Errors
     /// When parameters are missing or unknown, a start, goal or duration is not usable, or the coupling fits no column.
@@ -58,7 +59,8 @@ impl SkillExecution {
         let duration_s = settings.duration_s.unwrap_or(motion.duration_s);
         let orientations = check(skill, settings, duration_s)?;
         let mut shaping = motion.shaping_at(&theta)?;
-        let wrench = wrench_columns(skill, &settings.coupling);
+        let force = skill.force.as_ref().map(|force| force.columns.as_slice());
+        let wrench = wrench_columns(&motion.columns, force, &settings.coupling.space);
         let coupling = match settings.coupling.enabled {
             true => Some(Coupling::new(&settings.coupling, skill, &wrench, &segments(&mut shaping))?),
             false => None,
@@ -79,6 +81,7 @@ impl SkillExecution {
             displacement: vec![0.0; start.len()],
             alpha: motion.alpha,
             state: SkillState::at(start, wrench.len()),
+            wrench_columns: wrench,
             goal,
         };
         execution.observe();
@@ -169,6 +172,12 @@ impl SkillExecution {
     #[must_use]
     pub fn state(&self) -> &SkillState {
         &self.state
+    }
+
+    /// The columns of the wrench that a step takes (w), in their order.
+    #[must_use]
+    pub fn wrench_columns(&self) -> &[String] {
+        &self.wrench_columns
     }
 
     /// Where the movement ends (d), now.

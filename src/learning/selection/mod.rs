@@ -3,6 +3,7 @@
 //! Whole parameter values are left out, so that a movement is never predicted from another one of the same task. Errors compare positions
 //! at equal time fractions, in the unit of the columns.
 
+mod choice;
 mod cross_validation;
 mod folds;
 mod movement_error;
@@ -11,6 +12,7 @@ mod reproduction;
 mod ridge;
 mod states;
 
+pub use choice::{Choices, Selection, choose};
 pub use cross_validation::{CrossValidation, HeldOut, cross_validate};
 pub use folds::folds;
 pub use movement_error::{ErrorSize, MovementError};

@@ -1,11 +1,14 @@
 //! How many states a model needs.
 
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::super::LearningError;
+use super::super::parameters::mean_and_deviations;
 use super::super::phmm::{Phmm, PhmmSettings, Sequence, Topology, expect, fit};
 use super::folds::folds;
 use super::prediction::prediction_error;
+use crate::math::solve_normal_equations;
 
 /// What decides about the number of states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,20 +99,29 @@ fn bic(sequences: &[Sequence], settings: &PhmmSettings, seed: u64) -> Result<f64
         log_likelihood += expect(&model, sequence).ok_or_else(degenerate)?.log_likelihood;
     }
     let samples: usize = sequences.iter().map(Sequence::samples).sum();
-    Ok(free_parameters(&model, settings) as f64 * (samples as f64).ln() - 2.0 * log_likelihood)
+    Ok(free_parameters(&model, settings, sequences) as f64 * (samples as f64).ln() - 2.0 * log_likelihood)
 }
 
 /// How many numbers of a model the data choose: means, covariances, `W` (without the phase row unless it is learned), and the transitions
-/// that the topology leaves open. Floors and priors are not counted: they act on a state's few directions without data.
+/// that the topology leaves open. A row of `W` has as many free numbers as the demonstrations vary features: one bump per demonstrated
+/// value, squares of a parameter with two values, or a parameter that never varied, add columns that nothing decides about. Floors and
+/// priors are not counted: they act on a state's few directions without data.
 #[must_use]
-pub fn free_parameters(model: &Phmm, settings: &PhmmSettings) -> usize {
-    let (n, d, p) = (model.states(), model.dimension(), model.parameters());
+pub fn free_parameters(model: &Phmm, settings: &PhmmSettings, sequences: &[Sequence]) -> usize {
+    let (n, d, p) = (model.states(), model.dimension(), varied_features(sequences));
     let rows = if settings.weights_on_phase { d } else { d - 1 };
     let chain = match settings.topology {
         Topology::LeftToRight => n - 1,
         Topology::Ergodic => (n - 1) + n * (n - 1),
     };
     n * (d + d * (d + 1) / 2 + rows * p) + chain
+}
+
+/// Rank of the features' deviations from their mean over the demonstrations.
+fn varied_features(sequences: &[Sequence]) -> usize {
+    let features: Vec<&DVector<f64>> = sequences.iter().map(|s| &s.theta).collect();
+    let (_, deviations) = mean_and_deviations(&features);
+    solve_normal_equations(&deviations.tr_mul(&deviations), &DMatrix::zeros(deviations.ncols(), 0)).rank
 }
 
 fn left_out_error(sequences: &[Sequence], groups: &[Vec<usize>], settings: &PhmmSettings, seed: u64) -> Result<f64, LearningError> {

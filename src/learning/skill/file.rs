@@ -12,6 +12,12 @@ use crate::learning::LearningError;
 /// The largest file that is read (bytes): 200 states over 32 columns with 64 parameters take 20 MB.
 const MOST_BYTES: u64 = 64 << 20;
 
+/// The JSON Schema of `skill.json`.
+#[must_use]
+pub fn skill_schema() -> serde_json::Value {
+    schemars::schema_for!(File).to_value()
+}
+
 impl Skill {
     /// The skill as JSON text, with its checksum.
     ///

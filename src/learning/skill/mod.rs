@@ -13,6 +13,7 @@ use super::cpdmp::{Compliance, ComplianceWindow, ForceModel, MotionModel, Predic
 use super::{GripperProfile, LearningError, OrientationProfile};
 use crate::demonstration::ParameterSource;
 
+pub use file::skill_schema;
 pub use request::Request;
 pub(super) use request::selection;
 

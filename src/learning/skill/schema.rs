@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Skill;
@@ -16,7 +17,7 @@ pub(super) const FORMAT: &str = "cpdmp-skill";
 /// The version this program reads and writes.
 pub(super) const VERSION: u64 = 1;
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct File {
     format: String,
     version: u64,
@@ -39,7 +40,7 @@ pub(super) struct File {
     gripper: Option<GripperFile>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 struct MotionFile {
     stiffness: f64,
     duration_s: f64,
@@ -70,7 +71,7 @@ fn default_gate_start() -> f64 {
     0.94
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 struct ForceFile {
     columns: Vec<String>,
     parameters: Vec<String>,

@@ -1,6 +1,7 @@
 //! The parts of a skill file: matrices as lists of rows.
 
 use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::learning::cpdmp::{Compliance, Statistic};
@@ -10,13 +11,13 @@ use crate::learning::{FeatureMap, LearningError, LinearMap, OrientationProfile, 
 
 type Rows = Vec<Vec<f64>>;
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct MapFile {
     weights: Rows,
     mean: Vec<f64>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct PhmmFile {
     initial: Vec<f64>,
     transition: Rows,
@@ -31,21 +32,21 @@ pub(super) struct PhmmFile {
 }
 
 /// How well the demonstrations determine a state's mean.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 struct EvidenceFile {
     demonstrations: f64,
     centre: Vec<f64>,
     information: Rows,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct LwrFile {
     centres: Vec<f64>,
     widths: Vec<f64>,
     weights: Rows,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct ComplianceFile {
     statistic: Statistic,
     /// `null`: no state complies.
@@ -55,7 +56,7 @@ pub(super) struct ComplianceFile {
     between_m2: Vec<Rows>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct OrientationFile {
     reference: [f64; 4],
     /// Absent where the reference stands, and in files of programs that know no other.
@@ -65,13 +66,13 @@ pub(super) struct OrientationFile {
     weights: Vec<Rows>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct GripperFile {
     pub(super) openings: Vec<f64>,
 }
 
 /// Functions of the parameters.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub(super) enum FeaturesFile {
     Linear,

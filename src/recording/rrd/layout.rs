@@ -65,7 +65,7 @@ fn execution(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Ho
         views.plot("Gripper", "plots/gripper", Some(Corner2D::LeftBottom))?,
         views.plot("Motion y", "plots/motion/y", None)?,
     ];
-    let spread = views.plot("How far demonstrations disagree in the active state (mm)", "plots/spread", legend)?;
+    let spread = views.plot("How far demonstrations disagree in the active state", "plots/spread", legend)?;
     let lanes = StateTimelineView::new("Compliance, contact, gripper, person, state").with_origin("/lanes");
     let words = Tabs::new([views.events()?.into(), TextDocumentView::new("How to read").with_origin("/guide").into()]);
     let left = Vertical::new([scene.into(), words.into()]).with_row_shares(vec![5.0, 1.0]);

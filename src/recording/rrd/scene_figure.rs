@@ -1,21 +1,21 @@
 //! The objects of the scene.
 
 use nalgebra::Isometry3;
-use rerun::{Boxes3D, Color, Ellipsoids3D, FillMode};
+use rerun::{Boxes3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
 
 use super::convert;
 use super::entity_path::{Entity, OBJECT, OBJECT_SHAPE, Timeline};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{Experiment, StepRecord};
-use crate::world::{Object, ObjectKind, Parameters, PartShape, initial_pose, object_parts, support_height_m};
+use crate::world::{Object, ObjectKind, Parameters, PartShape, object_parts, support_height_m};
 
 /// Logs every object: its shapes, and its pose over time.
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
-    let support = support_height_m(&experiment.objects);
+    let support = support_height_m(&experiment.objects, &experiment.parameters);
     for (index, object) in experiment.objects.iter().enumerate() {
         let mut poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.objects.get(index).copied()).collect();
         if poses.len() != records.len() || poses.is_empty() {
-            poses = vec![initial_pose(object, &experiment.parameters, support)];
+            poses = vec![object.pose(&experiment.parameters, support)];
         }
         recorder.poses(OBJECT.of(&[&object.name]), &poses)?;
         log_shapes(recorder, None, &OBJECT_SHAPE, object, &experiment.parameters)?;
@@ -32,13 +32,16 @@ pub(super) fn log_shapes(
     parameters: &Parameters,
 ) -> Result<(), Fault> {
     let color = color(object);
-    let (mut boxes, mut balls) = (Vec::new(), Vec::new());
+    let (mut boxes, mut balls, mut cylinders) = (Vec::new(), Vec::new(), Vec::new());
     for part in object_parts(object, parameters) {
         let pose = part.object_from_part;
         let place = convert::vector(&pose.translation.vector);
         match part.shape {
             PartShape::Box(half) => boxes.push((place, convert::quaternion(&pose.rotation), convert::vector(&half))),
             PartShape::Ball(radius) => balls.push((place, radius as f32)),
+            PartShape::Cylinder(radius, height) => {
+                cylinders.push((place, convert::quaternion(&pose.rotation), radius as f32, height as f32));
+            }
         }
     }
     if !boxes.is_empty() {
@@ -54,6 +57,14 @@ pub(super) fn log_shapes(
             .with_fill_mode(FillMode::Solid);
         recorder.from(when, entity.of(&[&object.name, "balls"]), &solid)?;
     }
+    if !cylinders.is_empty() {
+        let solid = Cylinders3D::from_lengths_and_radii(cylinders.iter().map(|c| c.3), cylinders.iter().map(|c| c.2))
+            .with_centers(cylinders.iter().map(|c| c.0))
+            .with_quaternions(cylinders.iter().map(|c| c.1))
+            .with_colors([color])
+            .with_fill_mode(FillMode::Solid);
+        recorder.from(when, entity.of(&[&object.name, "cylinders"]), &solid)?;
+    }
     Ok(())
 }
 
@@ -64,6 +75,8 @@ fn color(object: &Object) -> Color {
         ObjectKind::UBlock { .. } => Color::from_rgb(128, 146, 170),
         ObjectKind::Ball { .. } => Color::from_rgb(250, 214, 40),
         ObjectKind::Basket { .. } => Color::from_rgb(140, 100, 66),
+        ObjectKind::Cylinder { .. } => Color::from_rgb(236, 146, 62),
+        ObjectKind::SpringPlate { .. } => Color::from_rgb(120, 170, 120),
         ObjectKind::Box { .. } => Color::from_rgb(214, 108, 70),
     }
 }

@@ -1,0 +1,32 @@
+//! Answers about objects: what touched them, where they ended, and which force moving them took.
+
+use nalgebra::Vector3;
+
+use super::judge::Answer;
+use crate::simulation::{RunOutcome, StepRecord};
+
+/// See [`CriterionKind::NoCollision`](super::CriterionKind::NoCollision).
+pub(super) fn no_collision(outcome: &RunOutcome) -> Answer {
+    let touching = || outcome.collisions.iter().filter(|contact| !contact.allowed);
+    let first = touching().map(|contact| contact.first_time_s).reduce(f64::min);
+    Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
+}
+
+/// See [`CriterionKind::ExpectedForce`](super::CriterionKind::ExpectedForce). The skill's own time ends with the phase; what follows is not part of what it expects.
+pub(super) fn expected_force(outcome: &RunOutcome, axis: usize, max_n: f64) -> Answer {
+    let during = || outcome.steps.iter().filter(|step| step.time_fraction < 1.0);
+    let squared = |step: &StepRecord| (step.wrench[axis] - step.expected_force[axis]).powi(2);
+    let rms = match outcome.skill.force {
+        Some(_) => (during().map(squared).sum::<f64>() / during().count() as f64).sqrt(),
+        None => f64::NAN,
+    };
+    Answer::at_most(rms, max_n, "N")
+}
+
+/// See [`CriterionKind::ObjectAt`](super::CriterionKind::ObjectAt).
+pub(super) fn object_at(outcome: &RunOutcome, object: &str, at: Option<&str>, offset_m: [f64; 3], max_m: f64) -> Answer {
+    let place = |name: &str| outcome.final_objects.iter().find(|o| o.name == name).map(|o| o.position.coords);
+    let origin = at.map_or(Some(Vector3::zeros()), place);
+    let distance = place(object).zip(origin).map_or(f64::NAN, |(object, origin)| (object - origin - Vector3::from(offset_m)).norm());
+    Answer::at_most(distance, max_m, "m")
+}

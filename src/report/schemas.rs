@@ -1,0 +1,37 @@
+//! JSON Schemas of what the program writes for other programs.
+
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema};
+use serde_json::Value;
+
+use super::{CheckReport, LearnReport, Manifest, RunReport};
+
+/// The JSON Schema of `report.json`.
+#[must_use]
+pub fn report_schema() -> Value {
+    written::<RunReport>()
+}
+
+/// The JSON Schema of `manifest.json`.
+#[must_use]
+pub fn manifest_schema() -> Value {
+    written::<Manifest>()
+}
+
+/// The JSON Schema of what `cpdmp check --format json` prints.
+#[must_use]
+pub fn check_schema() -> Value {
+    written::<CheckReport>()
+}
+
+/// The JSON Schema of what `cpdmp learn --format json` prints.
+#[must_use]
+pub fn learn_schema() -> Value {
+    written::<LearnReport>()
+}
+
+/// The schema of what a type is written as, which may be less than what it can be read from.
+fn written<T: JsonSchema>() -> Value {
+    let schema: Schema = SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>();
+    schema.to_value()
+}
