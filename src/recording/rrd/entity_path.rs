@@ -108,7 +108,6 @@ entities! {
     STATE_LANE "lanes/state" "the active state"
     GRIPPER_LANE "lanes/gripper" "whether the gripper is told to be open or closed"
     PERSON_LANE "lanes/person" "whether the person holds the arm"
-    CONTACT_LANE "lanes/contact" "whether something touches that must not"
     NEAREST "world/nearest/{object}" "where the arm, or what it holds, is nearest to an object: a line while it happens"
     CONTACT "world/contacts" "where something touches, when its force is largest: red what must not, white what may"
     TEACHING "teaching" "the lessons, on the timeline teaching_time: the scene in the robot's base frame (m)"

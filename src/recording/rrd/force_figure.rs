@@ -41,7 +41,7 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], expects: b
         plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;
         if expects {
             plot.log(EXPECTED.of(&[axis]), "expected", palette::EXPECTED, |r| r.expected_force[i])?;
-            plot.log(EXTERNAL.of(&[axis]), "measured - expected", palette::COMPLIES, |r| r.wrench[i] - r.expected_force[i])?;
+            plot.log(EXTERNAL.of(&[axis]), "unexpected", palette::COMPLIES, |r| r.wrench[i] - r.expected_force[i])?;
         }
         plot.log(PERSON.of(&[axis]), "person", palette::PERSON, |r| r.human.force[i])?;
         plot.log(TORQUE.of(&[axis]), axis, AXIS_COLORS[i], |r| r.wrench[3 + i])?;

@@ -2,11 +2,10 @@
 
 use rerun::{Color, StateChange, StateConfiguration};
 
-use super::entity_path::{COMPLIANCE_LANE, CONTACT_LANE, Entity, GRIPPER_LANE, PERSON_LANE, STATE_LANE};
+use super::entity_path::{COMPLIANCE_LANE, Entity, GRIPPER_LANE, PERSON_LANE, STATE_LANE};
 use super::palette;
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{AppliedForce, StepRecord};
-use crate::world::ContactEpisode;
 
 /// Whether the person holds the arm.
 pub(super) fn holds(record: &StepRecord) -> bool {
@@ -35,7 +34,7 @@ pub(super) fn beta_color(beta: f64) -> Color {
 }
 
 /// Logs all lanes; that of the states only for a skill that has some.
-pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], has_states: bool, collisions: &[ContactEpisode]) -> Result<(), Fault> {
+pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], has_states: bool) -> Result<(), Fault> {
     let lane = |entity: &Entity, value: &dyn Fn(&StepRecord) -> String, color: &dyn Fn(&StepRecord) -> Color| {
         let (mut times, mut values) = (Vec::new(), Vec::new());
         let mut legend: Vec<(String, Color)> = Vec::new();
@@ -63,12 +62,6 @@ pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], has_states:
         lane(&STATE_LANE, &|r| r.state.to_string(), &|r| shade(beta_color(r.beta), r.state))?;
     }
     lane(&PERSON_LANE, &|r| pick(holds(r), "holds", "hands off"), &|r| tint(holds(r), palette::PERSON))?;
-    let touching = |r: &StepRecord| {
-        let during = collisions.iter().filter(|c| !c.allowed && (c.first_time_s..=c.last_time_s).contains(&r.time_s));
-        during.map(|c| format!("{} - {}", c.a, c.b)).next()
-    };
-    let contact = |r: &StepRecord| touching(r).unwrap_or_else(|| "nothing touches that must not".to_owned());
-    lane(&CONTACT_LANE, &contact, &|r| tint(touching(r).is_some(), palette::FAULT))?;
     lane(&GRIPPER_LANE, &|r| pick(closed(r), "closed", "open"), &|r| tint(closed(r), palette::EXECUTED))
 }
 

@@ -58,20 +58,21 @@ fn execution(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Ho
         views.plot("Force x (N)", "plots/force/x", legend)?,
         views.plot("y", "plots/force/y", legend)?,
         views.plot("z", "plots/force/z", legend)?,
-        views.plot("Person", "plots/person", legend)?,
-        views.plot("Forcing x (m)", "plots/forcing/x", None)?,
+        views.plot("Person (N)", "plots/person/force", None)?,
+        views.plot("Power (W)", "plots/person/power", None)?,
+        views.plot("Forcing x", "plots/forcing/x", None)?,
         views.plot("z", "plots/forcing/z", None)?,
-        views.plot("Coupling (m)", "plots/coupling", legend)?,
+        views.plot("Coupling", "plots/coupling", legend)?,
         views.plot("Gripper", "plots/gripper", Some(Corner2D::LeftBottom))?,
         views.plot("Motion y", "plots/motion/y", None)?,
     ];
     let spread = views.plot("How far demonstrations disagree in the active state", "plots/spread", legend)?;
-    let lanes = StateTimelineView::new("Compliance, contact, gripper, person, state").with_origin("/lanes");
+    let lanes = StateTimelineView::new("Compliance, gripper, person, state").with_origin("/lanes");
     let words = Tabs::new([views.events()?.into(), TextDocumentView::new("How to read").with_origin("/guide").into()]);
     let left = Vertical::new([scene.into(), words.into()]).with_row_shares(vec![5.0, 1.0]);
     let right: [ContainerLike; 5] =
         [lateral.into(), vertical.into(), Tabs::new(more.map(ContainerLike::from)).into(), spread.into(), lanes.into()];
-    let right = Vertical::new(right).with_row_shares(vec![1.1, 1.1, 1.0, 0.75, 1.45]);
+    let right = Vertical::new(right).with_row_shares(vec![1.0, 1.0, 1.25, 0.7, 1.35]);
     Ok(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
 }
 

@@ -38,7 +38,8 @@ pub(super) fn log_replays(recorder: &Recorder, dataset: &Dataset) -> Result<(), 
         let values = film.forces.iter().map(|force| force[axis]);
         recorder.on(REPLAY_TIME, entity, &film.times_s, Scalars::new(values).columns_of_unit_batches()?)?;
     }
-    let (times, names): (Vec<f64>, Vec<&str>) = film.starts.into_iter().unzip();
+    let numbered = film.starts.iter().enumerate().map(|(number, (time_s, name))| (*time_s, format!("{}: {name}", number + 1)));
+    let (times, names): (Vec<f64>, Vec<String>) = numbered.unzip();
     recorder.on(REPLAY_TIME, REPLAY_LANE.path(), &times, StateChange::new().with_state(names).columns_of_unit_batches()?)
 }
 

@@ -18,7 +18,10 @@ pub(super) fn log_spread(recorder: &Recorder, outcome: &RunOutcome) -> Result<()
     let millimetres = |value_m2: f64| value_m2.max(0.0).sqrt() * 1e3;
     let of_state = |state: usize| compliance.values_m2.get(state).map_or(f64::NAN, |value| millimetres(*value));
     let spread: Vec<f64> = outcome.steps.iter().map(|record| of_state(record.state)).collect();
-    recorder.always(SPREAD.path(), &style(&format!("spread of the active state ({})", spread_unit(&outcome.skill.motion.columns)), palette::EXECUTED, 2.0))?;
+    recorder.always(
+        SPREAD.path(),
+        &style(&format!("spread of the active state ({})", spread_unit(&outcome.skill.motion.columns)), palette::EXECUTED, 2.0),
+    )?;
     recorder.every_step(SPREAD.path(), Scalars::new(spread).columns_of_unit_batches()?)?;
     // Without a threshold no state complies.
     let ends: Vec<f64> = [outcome.steps.first(), outcome.steps.last()].into_iter().flatten().map(|record| record.time_s).collect();

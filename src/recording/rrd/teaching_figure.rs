@@ -125,7 +125,7 @@ impl<'a> Film<'a> {
         plot(TEACHING_FORCE.path(), style("force (N)", palette::PERSON, 1.5), &|look| look.human.force.norm())?;
         plot(TEACHING_GRIPPER.path(), style("commanded", palette::PLANNED, 1.5), &|look| look.gripper_command)?;
         let times: Vec<f64> = self.starts.iter().map(|(start, _)| self.times_s[*start]).collect();
-        let names = self.starts.iter().map(|(_, name)| *name);
+        let names = self.starts.iter().enumerate().map(|(number, (_, name))| format!("{}: {name}", number + 1));
         recorder.on(TEACHING_TIME, TEACHING_LANE.path(), &times, StateChange::new().with_state(names).columns_of_unit_batches()?)
     }
 }

@@ -52,7 +52,7 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     paths::log_paths(&recorder, outcome, duration_s)?;
     state_figure::log_states(&recorder, experiment, outcome, duration_s, middle)?;
     force_figure::log_forces(&recorder, &outcome.steps, outcome.skill.force.is_some())?;
-    lanes::log_lanes(&recorder, &outcome.steps, outcome.skill.motion.states() > 0, &outcome.collisions)?;
+    lanes::log_lanes(&recorder, &outcome.steps, outcome.skill.motion.states() > 0)?;
     forcing_figure::log_forcing(&recorder, experiment, outcome, duration_s)?;
     spread_figure::log_spread(&recorder, outcome)?;
     contact_figure::log_contacts(&recorder, outcome)?;
