@@ -27,10 +27,10 @@ pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome) -> Result<
     log_touches(recorder, &outcome.collisions)
 }
 
-/// Contacts are points where and when their force was largest.
+/// Contacts are points where and when they were deepest.
 fn log_touches(recorder: &Recorder, contacts: &[ContactEpisode]) -> Result<(), Fault> {
     recorder.always(CONTACT.path(), &Points3D::update_fields().with_radii([0.008]))?;
-    let shown = |contact: &ContactEpisode| [(contact.max_force_time_s - SHOWN_S[0]).max(0.0), contact.max_force_time_s + SHOWN_S[1]];
+    let shown = |contact: &ContactEpisode| [(contact.deepest_time_s - SHOWN_S[0]).max(0.0), contact.deepest_time_s + SHOWN_S[1]];
     let mut moments: Vec<f64> = contacts.iter().flat_map(shown).collect();
     moments.sort_by(f64::total_cmp);
     moments.dedup();
@@ -41,7 +41,7 @@ fn log_touches(recorder: &Recorder, contacts: &[ContactEpisode]) -> Result<(), F
     let sets: Vec<Vec<&ContactEpisode>> = moments.iter().map(during).collect();
     let all = || sets.iter().flatten();
     let points = Points3D::update_fields()
-        .with_positions(all().map(|contact| convert::vector(&contact.point.coords)))
+        .with_positions(all().map(|contact| convert::vector(&contact.deepest_point.coords)))
         .with_colors(all().map(|contact| if contact.allowed { palette::TOUCH } else { palette::FAULT }));
     let lengths: Vec<usize> = sets.iter().map(Vec::len).collect();
     recorder.at_times(CONTACT.path(), &moments, points.columns(lengths)?)

@@ -109,7 +109,7 @@ entities! {
     GRIPPER_LANE "lanes/gripper" "whether the gripper is told to be open or closed"
     PERSON_LANE "lanes/person" "whether the person holds the arm"
     NEAREST "world/nearest/{object}" "where the arm, or what it holds, is nearest to an object: a line while it happens"
-    CONTACT "world/contacts" "where something touches, when its force is largest: red what must not, white what may"
+    CONTACT "world/contacts" "where something touches, when it is deepest: red what must not, white what may"
     TEACHING "teaching" "the lessons, on the timeline teaching_time: the scene in the robot's base frame (m)"
     TEACHING_BODY "teaching/robot/{body}" "pose of a robot body while a person leads the arm"
     TEACHING_BODY_SHAPE "teaching/robot/{body}/{shape}" "what the body looks like, in its frame"
