@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::learning_args::{Generate, Inspect, Learn};
+use super::sweep_args::{MergeArguments, SweepArguments};
 use super::view::View;
 use super::viewer::Viewer;
 
@@ -38,6 +39,12 @@ pub(super) enum Command {
     Inspect(Inspect),
     /// Show the recording of a run in the rerun viewer
     View(View),
+    /// Run a scenario again and again with other values of its keys: one table, one row per run
+    Sweep(SweepArguments),
+    /// Run a run again and compare its state hashes; with --set, say where another run parts from it
+    Replay(RunFolder),
+    /// Join the tables of a sweep's shards into one (--out)
+    Merge(MergeArguments),
     /// Draw the figures of a run again, from what its folder holds
     Figures(RunFolder),
     /// List the scenarios of a folder, with what each shows
@@ -163,7 +170,7 @@ pub(super) struct Global {
     #[arg(long, global = true, env = "CPDMP_ASSET_ROOT", value_name = "DIR")]
     pub asset_root: Vec<PathBuf>,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the
-    /// samples to this file; figures to this folder
+    /// samples to this file; figures to this folder; the sweep to this folder instead of sweeps/<scenario>; the joined table to this file
     #[arg(long, global = true, env = "CPDMP_OUT", value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Use this many threads; the result does not depend on it

@@ -8,7 +8,7 @@ use super::step_loop::{Published, StepLoop};
 use super::{FinalObject, SimulationError, StepRecord};
 use crate::control::{Controller, SkillController};
 use crate::learning::{Skill, SkillExecution};
-use crate::world::{Clearance, ContactEpisode, World};
+use crate::world::{Clearance, ContactEpisode, StateTrace, World};
 
 /// What an execution left behind.
 pub(super) struct Executed {
@@ -19,6 +19,7 @@ pub(super) struct Executed {
     pub clearances: Vec<Clearance>,
     pub final_objects: Vec<FinalObject>,
     pub state_hash: u64,
+    pub trace: StateTrace,
     pub steps: u64,
 }
 
@@ -57,6 +58,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
         idle: hold.as_mut(),
         step_s,
     };
+    run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("execute", 0), steps);
     let steps = run.run_while(
         steps,
         |_, _| {},
@@ -77,6 +79,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
         clearances: world.clearances().to_vec(),
         final_objects: final_objects(&world, &names),
         state_hash: world.state_hash(),
+        trace: world.take_trace(),
         steps,
     })
 }

@@ -11,7 +11,7 @@ use super::{LOOKS_HZ, LessonLook, SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
 use crate::demonstration::{Demonstration, Trajectory};
 use crate::math;
-use crate::world::{Parameters, pointing_down};
+use crate::world::{Parameters, StateTrace, pointing_down};
 
 /// One demonstration as it was led, before its wrench is known.
 #[derive(Clone, Debug)]
@@ -32,6 +32,8 @@ pub(super) struct Lesson {
     pub looks: Vec<LessonLook>,
     /// Hash of the world's states.
     pub state_hash: u64,
+    /// What was kept of them.
+    pub trace: StateTrace,
     /// Engine steps.
     pub steps: u64,
 }
@@ -68,6 +70,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         idle: hold.as_mut(),
         step_s: experiment.physics.step_s,
     };
+    run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("teach", number), steps + 1);
     run.run(
         steps + 1,
         |controller, world| controller.gripper = path.at(world.time_s()).2,
@@ -90,6 +93,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         joints: recorder.joints,
         looks,
         state_hash: world.state_hash(),
+        trace: world.take_trace(),
         steps: steps + 1,
     })
 }

@@ -10,8 +10,10 @@ mod overrides;
 mod planar_run;
 mod program;
 mod real_run;
+mod replay;
 mod run_folder;
 mod schemas;
+mod sweep;
 mod view;
 
 pub use program::{Folder, GOOD, Said, cpdmp};

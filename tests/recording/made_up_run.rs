@@ -74,6 +74,7 @@ fn learned(shaping: ShapingKind) -> RunOutcome {
         clearances: vec![clearance],
         phases: Vec::new(),
         state_hash: 0x1234,
+        traces: Vec::new(),
         final_objects: objects.to_vec(),
     }
 }
