@@ -1,6 +1,7 @@
 //! `cpdmp check`: runs without recording or display and judges, for continuous integrations.
 
 use std::path::Path;
+use std::time::Duration;
 
 use rayon::prelude::*;
 
@@ -29,7 +30,7 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     let clock = Clock::start();
     let options = options(global);
     let checks = files.par_iter().map(|path| {
-        let checked = checked(path, &options, terminal);
+        let checked = checked(path, &options, global.timeout, terminal);
         terminal.note(&format!("{}: {} ({:.1} s)\n", checked.path, checked.outcome.name().replace('_', " "), checked.wall_s));
         checked
     });
@@ -45,8 +46,8 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     }
 }
 
-fn checked(path: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
-    let clock = Clock::start();
+fn checked(path: &Path, options: &LoadOptions, limit: Option<Duration>, terminal: &Terminal) -> Checked {
+    let clock = Clock::with_limit(limit);
     let name = path.display().to_string();
     match Scenario::load(path, options) {
         Err(invalid) => {

@@ -20,6 +20,7 @@ mod learning_args;
 mod list;
 mod load;
 mod man;
+mod migrate;
 mod planar_files;
 mod progress;
 mod run;
@@ -64,6 +65,7 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::Learn(arguments) => learn::learn(arguments, &cli.global, &terminal),
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
+        Command::Migrate(arguments) => migrate::migrate(&arguments.files, arguments.dry_run, &terminal),
         Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
         Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),

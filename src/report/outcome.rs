@@ -14,6 +14,8 @@ pub enum Outcome {
     CriteriaNotMet,
     /// The simulation left the finite numbers.
     Diverged,
+    /// The run took longer than it may.
+    TimeLimit,
     /// No skill could be learned.
     LearningFailed,
     /// The arguments select no scenario.
@@ -32,10 +34,11 @@ pub enum Outcome {
 
 impl Outcome {
     /// Every outcome, from the mildest to the worst: a command that meets several ends with the worst.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Passed,
         Self::CriteriaNotMet,
         Self::Diverged,
+        Self::TimeLimit,
         Self::LearningFailed,
         Self::NothingSelected,
         Self::OutputBusy,
@@ -56,6 +59,7 @@ impl Outcome {
             Self::NothingSelected => 5,
             Self::CriteriaNotMet => 10,
             Self::Diverged => 11,
+            Self::TimeLimit => 12,
             Self::OutputFailed => 20,
             Self::OutputBusy => 21,
         }
@@ -67,6 +71,7 @@ impl Outcome {
             Self::Passed => "passed",
             Self::CriteriaNotMet => "criteria_not_met",
             Self::Diverged => "diverged",
+            Self::TimeLimit => "time_limit",
             Self::LearningFailed => "learning_failed",
             Self::NothingSelected => "nothing_selected",
             Self::OutputBusy => "output_busy",
@@ -88,6 +93,7 @@ impl Outcome {
             Self::Diverged => {
                 "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help"
             }
+            Self::TimeLimit => "a run took longer than --timeout allows: the message says how far it came",
             Self::LearningFailed => "no skill could be learned from the demonstrations: the message says what they lack",
             Self::NothingSelected => "the arguments name no scenario: check the folder or pattern",
             Self::OutputBusy => "another run is writing to the same folder: wait, or choose another --out",

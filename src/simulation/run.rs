@@ -58,7 +58,7 @@ pub fn perform(
     let question = setup.experiment.question();
     let plan = setup.with_place(learning::generate(&learned.skill, &question, 1.0 / setup.experiment.log_rate_hz, 1.0)?)?;
     progress.phase("execute", 0);
-    let executed = execute(setup, &learned.skill)?;
+    let executed = execute(setup, &learned.skill, progress)?;
     let mut report = learned.report.clone();
     report.warnings.extend(extrapolation(setup, &learned.skill)?);
     history.hashes.push(executed.state_hash);
@@ -100,7 +100,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
         .par_iter()
         .enumerate()
         .map(|(number, parameters)| {
-            let lesson = teach(setup, plan, parameters, number as u64)?;
+            let lesson = teach(setup, plan, parameters, number as u64, progress)?;
             progress.advance(lesson.steps);
             Ok(lesson)
         })
@@ -113,7 +113,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     let replays: Vec<(Demonstration, u64, u64)> = lessons
         .par_iter()
         .map(|lesson| {
-            let replayed = replay(setup, lesson)?;
+            let replayed = replay(setup, lesson, progress)?;
             progress.advance(replayed.steps);
             Ok((demonstration(setup, lesson, &replayed.wrench)?, replayed.state_hash, replayed.steps))
         })

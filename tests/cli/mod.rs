@@ -2,9 +2,11 @@
 
 mod check;
 mod commands;
+mod examples;
 mod generate;
 mod inspect;
 mod learn;
+mod migrate;
 mod overrides;
 mod planar_run;
 mod program;
