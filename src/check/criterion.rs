@@ -46,6 +46,8 @@ pub enum CriterionKind {
     Clearance {
         /// The objects' names.
         objects: Vec<String>,
+        /// Links of the robot, or objects in the gripper, whose distance counts; all of them when there is none.
+        links: Vec<String>,
         /// The smallest distance allowed (m).
         min_m: f64,
     },

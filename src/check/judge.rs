@@ -4,7 +4,7 @@ use super::judge_objects::{expected_force, no_collision, object_at};
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
-use crate::world::{ContactEpisode, Object, ObjectKind};
+use crate::world::{Clearance, ContactEpisode, Object, ObjectKind};
 
 /// Answers `specs` for the run `outcome` of `experiment`, in their order.
 pub fn judge(outcome: &RunOutcome, experiment: &Experiment, specs: &[CriterionSpec]) -> Vec<Criterion> {
@@ -56,13 +56,13 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
             (object_in_container(outcome, experiment, object, container, *speed_max_m_per_s), true)
         }
         CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
-        CriterionKind::Clearance { objects, min_m } => (clearance(outcome, objects, *min_m), false),
+        CriterionKind::Clearance { objects, links, min_m } => (clearance_of(&outcome.clearances, objects, links, *min_m), false),
         // Asked of planar experiments only: of an arm there is nothing to measure.
         CriterionKind::PlanarClearance { min_m, .. } | CriterionKind::PlanarSidesPassed { min_m, .. } => {
             (Answer::at_least(f64::NAN, *min_m, "m"), false)
         }
         CriterionKind::PlanarCollides { .. } => (Answer::at_least(f64::NAN, 1.0, "settings"), false),
-        CriterionKind::NoCollision => (no_collision(outcome), true),
+        CriterionKind::NoCollision => (no_collision(&outcome.collisions), true),
         CriterionKind::ExpectedForce { axis, max_n } => (expected_force(outcome, *axis, *max_n), true),
         CriterionKind::ObjectAt { object, at, offset_m, max_m } => (object_at(outcome, object, at.as_deref(), *offset_m, *max_m), true),
         CriterionKind::GoalReached { max_m } => (goal_reached(outcome, *max_m), true),
@@ -100,14 +100,18 @@ fn container_size(container: &Object) -> (f64, f64) {
 }
 
 /// Whether the part `name` belongs to one of the `objects`.
-fn belongs(name: &str, objects: &[String]) -> bool {
+pub(super) fn belongs(name: &str, objects: &[String]) -> bool {
     objects.iter().any(|object| name == object || name.strip_prefix(object.as_str()).is_some_and(|rest| rest.starts_with('.')))
 }
 
 fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String]) -> Answer {
     let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects) && !standing(c, experiment));
-    let first = touching().map(|c| c.first_time_s).fold(None, |first: Option<f64>, t| Some(first.map_or(t, |f| f.min(t))));
-    Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
+    Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first_time(touching()))
+}
+
+/// The time of the first of some contacts (s).
+pub(super) fn first_time<'a>(contacts: impl Iterator<Item = &'a ContactEpisode>) -> Option<f64> {
+    contacts.map(|contact| contact.first_time_s).reduce(f64::min)
 }
 
 /// Whether the contact is nothing but an object standing on a table.
@@ -117,8 +121,10 @@ fn standing(contact: &ContactEpisode, experiment: &Experiment) -> bool {
     (table(&contact.a) && object(&contact.b)) || (table(&contact.b) && object(&contact.a))
 }
 
-fn clearance(outcome: &RunOutcome, objects: &[String], min_m: f64) -> Answer {
-    let nearest = outcome.clearances.iter().filter(|c| objects.contains(&c.b)).min_by(|a, b| a.min_distance_m.total_cmp(&b.min_distance_m));
+/// The smallest distance from the links (all when none is named) to the objects.
+pub(super) fn clearance_of(clearances: &[Clearance], objects: &[String], links: &[String], min_m: f64) -> Answer {
+    let asked = clearances.iter().filter(|c| objects.contains(&c.b) && (links.is_empty() || links.contains(&c.a)));
+    let nearest = asked.filter(|c| c.min_distance_m.is_finite()).min_by(|a, b| a.min_distance_m.total_cmp(&b.min_distance_m));
     let value = nearest.map_or(f64::NAN, |c| c.min_distance_m);
     let failed = nearest.filter(|c| c.min_distance_m < min_m).map(|c| c.time_s);
     Answer::at_least(value, min_m, "m").first_failed(failed)

@@ -2,14 +2,14 @@
 
 use nalgebra::Vector3;
 
-use super::judge::Answer;
+use super::judge::{Answer, first_time};
 use crate::simulation::{RunOutcome, StepRecord};
+use crate::world::ContactEpisode;
 
 /// See [`CriterionKind::NoCollision`](super::CriterionKind::NoCollision).
-pub(super) fn no_collision(outcome: &RunOutcome) -> Answer {
-    let touching = || outcome.collisions.iter().filter(|contact| !contact.allowed);
-    let first = touching().map(|contact| contact.first_time_s).reduce(f64::min);
-    Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first)
+pub(super) fn no_collision(collisions: &[ContactEpisode]) -> Answer {
+    let touching = || collisions.iter().filter(|contact| !contact.allowed);
+    Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first_time(touching()))
 }
 
 /// See [`CriterionKind::ExpectedForce`](super::CriterionKind::ExpectedForce). The skill's own time ends with the phase; what follows is not part of what it expects.

@@ -1,14 +1,18 @@
 //! Judges a run from what it left behind: step records, contacts, clearances, where things ended. Never asks the engine or the controller.
 
+mod allowed_contact;
 mod criterion;
 mod judge;
+mod judge_motion;
 mod judge_objects;
 mod judge_planar;
 mod place;
 mod windows;
 
+pub use allowed_contact::{AllowedContact, allow};
 pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, PlanarSettings};
 pub use judge::judge;
+pub use judge_motion::judge_motion;
 pub use judge_planar::judge_planar;
 pub use place::Place;
 pub use windows::{Window, compliance_windows, human_windows};

@@ -81,9 +81,13 @@ pub(super) struct RunFolder {
 /// What is checked, and where the verdict goes.
 #[derive(Debug, Args)]
 pub(super) struct Check {
-    /// Scenario files, folders of them, or patterns with `*` and `?` in the file name
+    /// Scenario files, folders of them, or patterns with `*` and `?` in the file name; folders of stored runs; files of samples (CSV or
+    /// Parquet with `time_s` and joint angles or tool poses)
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
+    /// Judge files of samples in the scene of this scenario
+    #[arg(long, value_name = "SCENARIO")]
+    pub scene: Option<PathBuf>,
     /// Write the verdict as JUnit to this file, whatever else is printed
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
@@ -170,7 +174,7 @@ pub(super) struct Global {
     /// Print results for people, as JSON (one document per line), or of `check` as JUnit or as GitHub annotations
     #[arg(long, global = true, env = "CPDMP_FORMAT", value_enum, default_value = "human")]
     pub format: Printed,
-    /// Tell more: also what is odd about the robot's file
+    /// Tell more: also what is odd about the robot's file, and which contacts are allowed why
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
     /// Tell nothing but results and errors

@@ -6,10 +6,11 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::args::{Check, Global, Printed};
+use super::check_motion::judged;
+use super::check_target::{Target, targets};
 use super::judged_run::judged_run;
 use super::load::options;
 use super::progress::Clock;
-use super::select::select;
 use super::terminal::Terminal;
 use crate::report::{CheckReport, Checked, InputFault, Outcome, Replaceable, check_text, github, junit, prepare_file, replace_file};
 use crate::scenario::{Diagnostic, LoadOptions, Scenario, Severity};
@@ -23,14 +24,18 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
         terminal.error(&format!("error: {error}\n"));
         return error.outcome();
     }
-    let files = match select(&arguments.paths, terminal) {
-        Ok(files) => files,
+    let targets = match targets(arguments, terminal) {
+        Ok(targets) => targets,
         Err(outcome) => return outcome,
     };
     let clock = Clock::start();
     let options = options(global);
-    let checks = files.par_iter().map(|path| {
-        let checked = checked(path, &options, global.timeout, terminal);
+    let checks = targets.par_iter().map(|target| {
+        let checked = match target {
+            Target::Scenario(path) => simulated(path, &options, global.timeout, terminal),
+            Target::Run(run) => judged(run, "run", &run.join("steps.parquet"), &run.join("scenario.toml"), &options, terminal),
+            Target::Trajectory(path, scene) => judged(path, "trajectory", path, scene, &options, terminal),
+        };
         terminal.note(&format!("{}: {} ({:.1} s)\n", checked.path, checked.outcome.name().replace('_', " "), checked.wall_s));
         checked
     });
@@ -46,22 +51,23 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     }
 }
 
-fn checked(path: &Path, options: &LoadOptions, limit: Option<Duration>, terminal: &Terminal) -> Checked {
+fn simulated(path: &Path, options: &LoadOptions, limit: Option<Duration>, terminal: &Terminal) -> Checked {
     let clock = Clock::with_limit(limit);
     let name = path.display().to_string();
     match Scenario::load(path, options) {
         Err(invalid) => {
             terminal.faults(&invalid.0);
-            Checked::refused(name, faults(&invalid.0), clock.elapsed_s())
+            Checked::refused(name, "scenario", faults(&invalid.0), clock.elapsed_s())
         }
         Ok(scenario) => {
             let run = judged_run(&scenario, &clock);
-            Checked::run(name, run.report, faults(&scenario.warnings), clock.elapsed_s())
+            Checked::judged(name, "scenario", run.report, faults(&scenario.warnings), clock.elapsed_s())
         }
     }
 }
 
-fn faults(diagnostics: &[Diagnostic]) -> Vec<InputFault> {
+/// The faults of a scenario for the report.
+pub(super) fn faults(diagnostics: &[Diagnostic]) -> Vec<InputFault> {
     let fault = |found: &Diagnostic| InputFault {
         code: found.code.describe().0.to_owned(),
         warning: found.severity == Severity::Warning,
@@ -82,7 +88,7 @@ fn told(found: &Diagnostic) -> String {
 
 fn tell(report: &CheckReport, global: &Global, terminal: &Terminal) {
     match global.format {
-        Printed::Human => terminal.result(&check_text(report)),
+        Printed::Human => terminal.result(&check_text(report, global.verbose > 0)),
         Printed::Json => terminal.json(report),
         Printed::Junit => terminal.result(&junit(report)),
         Printed::Github => terminal.result(&github(report)),

@@ -1,6 +1,6 @@
 //! One scenario from its settings to its report.
 
-use crate::check::{judge, judge_planar};
+use crate::check::{allow, judge, judge_planar};
 use crate::demonstration::DemonstrationError;
 use crate::learning::LearningError;
 use crate::planar::PlanarOutcome;
@@ -46,7 +46,8 @@ pub(super) fn judged_run(scenario: &Scenario, progress: &dyn Progress) -> Judged
 
 fn arm(experiment: &Experiment, scenario: &Scenario, progress: &dyn Progress) -> JudgedRun {
     match simulation::run(experiment, progress) {
-        Ok(left) => {
+        Ok(mut left) => {
+            allow(&mut left.collisions, &scenario.allowed_contacts);
             let criteria = judge(&left, experiment, &scenario.criteria);
             JudgedRun { report: RunReport::finished(experiment, &left, &criteria), left: Some(Left::Arm(Box::new(left))) }
         }
@@ -94,6 +95,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         | SimulationError::World(_)
         | SimulationError::Scene(_)
         | SimulationError::Wrench(_)
-        | SimulationError::Mismatch(_) => Outcome::InvalidInput,
+        | SimulationError::Mismatch(_)
+        | SimulationError::Trajectory(_) => Outcome::InvalidInput,
     }
 }

@@ -5,6 +5,8 @@
 
 mod args;
 mod check;
+mod check_motion;
+mod check_target;
 mod completions;
 mod explain;
 mod failure;

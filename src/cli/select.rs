@@ -25,7 +25,8 @@ pub(super) fn select(paths: &[PathBuf], terminal: &Terminal) -> Result<Vec<PathB
     if empty { Err(Outcome::NothingSelected) } else { Ok(files) }
 }
 
-fn scenarios(path: &Path) -> Vec<PathBuf> {
+/// The scenarios that one argument names.
+pub(super) fn scenarios(path: &Path) -> Vec<PathBuf> {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     if path.is_dir() {
         matching(path, "*.toml")
@@ -37,13 +38,26 @@ fn scenarios(path: &Path) -> Vec<PathBuf> {
     }
 }
 
+/// The files that one argument names, whatever they hold: itself, or those that match it as a pattern.
+pub(super) fn files_like(path: &Path) -> Vec<PathBuf> {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let is_pattern = !path.exists() && name.contains(['*', '?']);
+    if is_pattern { all_matching(path.parent().unwrap_or(Path::new("")), &name) } else { vec![path.to_path_buf()] }
+}
+
 /// The scenario files of a folder whose names match the pattern, sorted.
 fn matching(folder: &Path, pattern: &str) -> Vec<PathBuf> {
+    let mut files = all_matching(folder, pattern);
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
+    files
+}
+
+/// The files of a folder whose names match the pattern, sorted.
+fn all_matching(folder: &Path, pattern: &str) -> Vec<PathBuf> {
     let place = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = std::fs::read_dir(place) else { return Vec::new() };
     let names = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
-    let mut files: Vec<PathBuf> =
-        names.filter(|name| name.ends_with(".toml") && matches(pattern, name)).map(|name| folder.join(name)).collect();
+    let mut files: Vec<PathBuf> = names.filter(|name| matches(pattern, name)).map(|name| folder.join(name)).collect();
     files.retain(|file| !file.is_dir());
     files.sort();
     files

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
 
-use crate::robot::{ChainError, ChainState, FollowSettings, IkOutcome, IkSettings, InverseKinematics, RobotModel, SerialChain};
+use crate::robot::{ChainError, ChainState, FollowSettings, IkOutcome, IkSettings, InverseKinematics, Joint, RobotModel, SerialChain};
 
 /// Why a robot has no such arm.
 pub type ArmModelError = ChainError;
@@ -51,6 +51,16 @@ impl ArmModel {
     pub fn tool_pose(&mut self, q: &[f64]) -> Isometry3<f64> {
         self.chain.forward_kinematics(q, &mut self.state);
         self.state.tip_pose()
+    }
+
+    /// The joints, from the shoulder.
+    pub fn chain_joints(&self) -> impl Iterator<Item = &Joint> {
+        self.chain.joints()
+    }
+
+    /// Finds joint angles for `base_from_tool`, starting at those in `q`, which holds the best posture met afterwards.
+    pub fn reach_from(&mut self, base_from_tool: &Isometry3<f64>, q: &mut [f64]) -> IkOutcome {
+        self.inverse.solve(&self.chain, base_from_tool, &self.rest_rad, q, &mut self.state)
     }
 
     /// The Jacobian at the tool point (6 x n, base axes) at the angles of the last [`Self::tool_pose`].

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{CollisionReport, CriterionReport, Outcome, RunReport};
+use crate::world::RESOLUTION_M;
 
 /// The version of this format.
 const SCHEMA_VERSION: u32 = 1;
@@ -21,15 +22,19 @@ pub struct CheckReport {
     pub exit_code: u8,
     /// Wall time of all checks together (s).
     pub wall_s: f64,
+    /// Nothing that is thicker passes unseen between two moments that are looked at, and no distance below 5 cm is told too large by more (m).
+    pub resolution_m: f64,
     /// Every check, in the order of the arguments.
     pub checks: Vec<Checked>,
 }
 
-/// One scenario that was checked.
+/// One scenario, stored run or trajectory that was checked.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Checked {
     /// What was checked, as the user named it.
     pub path: String,
+    /// What it is: `scenario` (simulated), `run` (a stored one) or `trajectory`.
+    pub kind: &'static str,
     /// How it ended.
     pub outcome: Outcome,
     /// The exit code that belongs to it.
@@ -45,7 +50,7 @@ pub struct Checked {
 /// Something wrong or odd about a file.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct InputFault {
-    /// Its code, which `cpdmp explain` knows.
+    /// Its code; `cpdmp explain` knows those of scenarios.
     pub code: String,
     /// Whether the file can be used all the same.
     pub warning: bool,
@@ -64,23 +69,31 @@ impl CheckReport {
     #[must_use]
     pub fn of(checks: Vec<Checked>, wall_s: f64) -> Self {
         let outcome = checks.iter().map(|check| check.outcome).max().unwrap_or(Outcome::NothingSelected);
-        Self { schema_version: SCHEMA_VERSION, version: env!("CARGO_PKG_VERSION"), outcome, exit_code: outcome.exit_code(), wall_s, checks }
+        Self {
+            schema_version: SCHEMA_VERSION,
+            version: env!("CARGO_PKG_VERSION"),
+            outcome,
+            exit_code: outcome.exit_code(),
+            wall_s,
+            resolution_m: RESOLUTION_M,
+            checks,
+        }
     }
 }
 
 impl Checked {
-    /// A run with its report.
+    /// What was run, or judged without running, with its report.
     #[must_use]
-    pub fn run(path: String, report: RunReport, faults: Vec<InputFault>, wall_s: f64) -> Self {
+    pub fn judged(path: String, kind: &'static str, report: RunReport, faults: Vec<InputFault>, wall_s: f64) -> Self {
         let (outcome, exit_code) = (report.outcome, report.exit_code);
-        Self { path, outcome, exit_code, wall_s, faults, report: Some(report) }
+        Self { path, kind, outcome, exit_code, wall_s, faults, report: Some(report) }
     }
 
     /// Input that cannot be used.
     #[must_use]
-    pub fn refused(path: String, faults: Vec<InputFault>, wall_s: f64) -> Self {
+    pub fn refused(path: String, kind: &'static str, faults: Vec<InputFault>, wall_s: f64) -> Self {
         let outcome = Outcome::InvalidInput;
-        Self { path, outcome, exit_code: outcome.exit_code(), wall_s, faults, report: None }
+        Self { path, kind, outcome, exit_code: outcome.exit_code(), wall_s, faults, report: None }
     }
 
     /// Its criteria; none when there was no run.

@@ -5,9 +5,9 @@ use super::table::{figure, table};
 use super::text::{BOLD, GREEN, PLAIN, RED};
 use super::{ClearanceReport, CriterionReport, Outcome, verdict};
 
-/// The report as text with ANSI colours, which the terminal strips where they are not wanted.
+/// The report as text with ANSI colours, which the terminal strips where they are not wanted. `all_contacts` lists those that are allowed too.
 #[must_use]
-pub fn check_text(report: &CheckReport) -> String {
+pub fn check_text(report: &CheckReport, all_contacts: bool) -> String {
     let heading = ["check", "seed", "outcome", "as expected", "smallest margin", "nearest", "refused contacts", "wall"];
     let rows = std::iter::once(heading.map(str::to_owned).to_vec()).chain(report.checks.iter().map(row));
     let mut lines = table(&rows.collect::<Vec<_>>());
@@ -15,6 +15,9 @@ pub fn check_text(report: &CheckReport) -> String {
     for check in report.checks.iter().filter(|check| check.outcome != Outcome::Passed) {
         lines.extend(complaint(check));
         lines.push(String::new());
+    }
+    for check in report.checks.iter().filter(|_| all_contacts) {
+        lines.extend(allowed_contacts(check));
     }
     lines.push(summary(report));
     lines.join("\n") + "\n"
@@ -51,11 +54,14 @@ fn tightest(criteria: &[CriterionReport]) -> Option<String> {
     let rated = expected.filter_map(|criterion| Some((criterion, relative(criterion)?)));
     let (criterion, _) = rated.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let margin = criterion.margin?;
-    Some(format!("{} {}{} {}", criterion.name, if margin < 0.0 { "" } else { "+" }, figure(margin), criterion.unit))
+    let unit = if criterion.unit == "1" { "" } else { criterion.unit };
+    let sign = if margin < 0.0 { "" } else { "+" };
+    Some(format!("{} {sign}{} {unit}", criterion.name, figure(margin)).trim_end().to_owned())
 }
 
 fn nearest(clearances: &[ClearanceReport]) -> Option<String> {
-    let measured = clearances.iter().filter_map(|clearance| Some((clearance, clearance.min_distance_m?)));
+    // What was touched is told among the contacts.
+    let measured = clearances.iter().filter_map(|clearance| Some((clearance, clearance.min_distance_m.filter(|&m| m > 0.0)?)));
     let (clearance, distance) = measured.min_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(format!("{} - {} {:.1} mm", clearance.a, clearance.b, distance * 1e3))
 }
@@ -70,6 +76,18 @@ fn complaint(check: &Checked) -> Vec<String> {
         lines.push(format!("  {place}{RED}{}{PLAIN} {}", criterion.name, verdict::reason(criterion)));
     }
     lines.extend(check.refused_contacts().map(|contact| format!("  {}", verdict::contact(contact))));
+    lines
+}
+
+/// The contacts of a check that are allowed, each with the reason.
+fn allowed_contacts(check: &Checked) -> Vec<String> {
+    let allowed: Vec<_> = check.report.iter().flat_map(|report| &report.collisions).filter(|contact| contact.allowed).collect();
+    if allowed.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = vec![format!("{BOLD}{}{PLAIN}: contacts that are allowed", check.path)];
+    lines.extend(allowed.iter().map(|contact| format!("  {}; {}", verdict::contact(contact), verdict::permission(contact))));
+    lines.push(String::new());
     lines
 }
 

@@ -26,7 +26,8 @@ fn seconds(wall_s: f64) -> Duration {
 }
 
 fn suite(check: &Checked) -> TestSuite {
-    let name = check.report.as_ref().map_or(&check.path, |report| &report.scenario);
+    let simulated = check.report.as_ref().filter(|_| check.kind == "scenario");
+    let name = simulated.map_or(&check.path, |report| &report.scenario);
     let mut suite = TestSuite::new(name);
     suite.set_time(seconds(check.wall_s));
     suite.add_property(Property::new("file", &check.path));
@@ -49,7 +50,10 @@ fn suite(check: &Checked) -> TestSuite {
 fn case(check: &Checked, criterion: &CriterionReport) -> TestCase {
     let status = match (criterion.required, criterion.as_expected) {
         (true, true) => TestCaseStatus::success(),
-        (true, false) => not_success(NonSuccessKind::Failure, "criterion", &verdict::reason(criterion)),
+        (true, false) => {
+            let contacts: String = check.refused_contacts().map(|contact| format!("\n{}", verdict::contact(contact))).collect();
+            not_success(NonSuccessKind::Failure, "criterion", &format!("{}{contacts}", verdict::reason(criterion)))
+        }
         (false, _) => {
             let mut status = TestCaseStatus::skipped();
             status.set_message(format!("only reported: {}", verdict::numbers(criterion)));

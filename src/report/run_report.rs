@@ -7,7 +7,7 @@ use super::{ComparisonReport, Outcome};
 use super::{planar, sections};
 use crate::check::{Criterion, Place};
 use crate::planar::PlanarOutcome;
-use crate::simulation::{Experiment, RunOutcome};
+use crate::simulation::{Experiment, MotionOutcome, RunOutcome};
 
 /// The version of `report.json`.
 const SCHEMA_VERSION: u32 = 1;
@@ -37,7 +37,7 @@ pub struct RunReport {
     pub criteria: Vec<CriterionReport>,
     /// Every pair of parts that touched.
     pub collisions: Vec<CollisionReport>,
-    /// The smallest distance to every watched object.
+    /// The smallest distance between each part of the arm and each object, and whatever else came near.
     pub clearance: Vec<ClearanceReport>,
     /// What several methods made of the same settings; `null` for a run of an arm.
     pub comparison: Option<ComparisonReport>,
@@ -110,8 +110,18 @@ pub struct CollisionReport {
     pub last_time_s: f64,
     /// Deepest penetration (m).
     pub max_depth_m: f64,
-    /// Largest normal force (N).
+    /// When it was deepest (s).
+    pub deepest_time_s: f64,
+    /// Where: the middle of the two deepest points (m, world).
+    pub deepest_point_m: [f64; 3],
+    /// Largest normal force (N); 0 when nothing was simulated, and of a touch within a step.
     pub max_force_n: f64,
+    /// Why the contact is allowed; `null` when it is not.
+    pub reason: Option<&'static str>,
+    /// The key of the scenario that allows it (`object.toy`, `allowed_contact.leaning`).
+    pub reason_key: Option<String>,
+    /// Where that was typed.
+    pub reason_place: Option<Place>,
 }
 
 /// The smallest distance to one object.
@@ -211,7 +221,7 @@ impl RunReport {
             robot: Some(outcome.robot.name.clone()),
             criteria: criteria.iter().map(sections::criterion).collect(),
             collisions: outcome.collisions.iter().map(sections::collision).collect(),
-            clearance: outcome.clearances.iter().map(sections::clearance).collect(),
+            clearance: sections::clearances(&outcome.clearances, &experiment.objects),
             compliance: Some(sections::compliance(outcome)),
             human: Some(sections::human(&outcome.steps)),
             learning: Some(sections::learning(&outcome.learning)),
@@ -239,6 +249,20 @@ impl RunReport {
         }
     }
 
+    /// The report of a movement that was judged by geometry.
+    pub fn of_motion(experiment: &Experiment, outcome: &MotionOutcome, criteria: &[Criterion]) -> Self {
+        let as_expected = criteria.iter().all(Criterion::as_expected);
+        let parameters = experiment.parameters.0.iter();
+        Self {
+            criteria: criteria.iter().map(sections::criterion).collect(),
+            collisions: outcome.collisions.iter().map(sections::collision).collect(),
+            clearance: sections::clearances(&outcome.clearances, &experiment.objects),
+            parameters: parameters.map(|(name, value)| ParameterReport { name: name.clone(), value: *value }).collect(),
+            steps: outcome.samples as u64,
+            ..Self::empty(&experiment.name, experiment.seed, if as_expected { Outcome::Passed } else { Outcome::CriteriaNotMet })
+        }
+    }
+
     /// The report of a run that could not be finished.
     pub fn failed(name: &str, seed: u64, outcome: Outcome, error: &str) -> Self {
         Self { error: Some(error.to_owned()), ..Self::empty(name, seed, outcome) }
@@ -248,6 +272,9 @@ impl RunReport {
     pub fn locate(&mut self, find: impl Fn(&str) -> Option<Place>) {
         for criterion in &mut self.criteria {
             criterion.place = find(&format!("criterion.{}", criterion.name));
+        }
+        for contact in &mut self.collisions {
+            contact.reason_place = contact.reason_key.as_deref().and_then(&find);
         }
     }
 

@@ -8,7 +8,7 @@ use crate::learning::LearningReport;
 use crate::learning::cpdmp::Statistic;
 use crate::learning::phmm::FitStatus;
 use crate::simulation::{PhaseSummary, RunOutcome, StepRecord};
-use crate::world::{Clearance, ContactEpisode};
+use crate::world::{Clearance, ContactEpisode, NEAR_M, Object, Permission};
 
 /// Force below which a hand does not count as touching (N): a hundredth of what a person feels at the wrist.
 const TOUCH_N: f64 = 0.05;
@@ -35,6 +35,12 @@ pub(super) fn criterion(criterion: &Criterion) -> CriterionReport {
 }
 
 pub(super) fn collision(contact: &ContactEpisode) -> CollisionReport {
+    let (reason, reason_key) = match &contact.permission {
+        None => (None, None),
+        Some(Permission::Grasp(object)) => (Some("fingers may touch what can be grasped"), Some(format!("object.{object}"))),
+        Some(Permission::Objects) => (Some("objects may touch each other"), None),
+        Some(Permission::Scenario(name)) => (Some("the scenario allows it"), Some(format!("allowed_contact.{name}"))),
+    };
     CollisionReport {
         a: contact.a.clone(),
         b: contact.b.clone(),
@@ -42,19 +48,30 @@ pub(super) fn collision(contact: &ContactEpisode) -> CollisionReport {
         first_time_s: contact.first_time_s,
         last_time_s: contact.last_time_s,
         max_depth_m: contact.max_depth_m,
+        deepest_time_s: contact.deepest_time_s,
+        deepest_point_m: contact.deepest_point.coords.into(),
         max_force_n: contact.max_force_n,
+        reason,
+        reason_key,
+        reason_place: None,
     }
 }
 
-pub(super) fn clearance(clearance: &Clearance) -> ClearanceReport {
-    ClearanceReport {
-        a: clearance.a.clone(),
-        b: clearance.b.clone(),
-        min_distance_m: finite(clearance.min_distance_m),
-        time_s: clearance.time_s,
-        point_a_m: clearance.point_a.coords.into(),
-        point_b_m: clearance.point_b.coords.into(),
-    }
+/// Everything measured about objects, and of the robot itself what came near.
+pub(super) fn clearances(clearances: &[Clearance], objects: &[Object]) -> Vec<ClearanceReport> {
+    let told = |one: &&Clearance| {
+        let object = objects.iter().any(|object| object.name == one.b);
+        one.min_distance_m.is_finite() && (object || one.min_distance_m < NEAR_M)
+    };
+    let report = |one: &Clearance| ClearanceReport {
+        a: one.a.clone(),
+        b: one.b.clone(),
+        min_distance_m: finite(one.min_distance_m),
+        time_s: one.time_s,
+        point_a_m: one.point_a.coords.into(),
+        point_b_m: one.point_b.coords.into(),
+    };
+    clearances.iter().filter(told).map(report).collect()
 }
 
 pub(super) fn phase(phase: &PhaseSummary) -> PhaseReport {

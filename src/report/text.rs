@@ -4,6 +4,7 @@ use super::Outcome;
 use super::comparison;
 use super::run_report::{CriterionReport, RunReport};
 use super::table::figure;
+use super::{ClearanceReport, verdict};
 
 pub(super) const GREEN: &str = "\u{1b}[32m";
 pub(super) const RED: &str = "\u{1b}[31m";
@@ -86,27 +87,30 @@ fn contacts(report: &RunReport) -> Vec<String> {
     let refused: Vec<_> = report.collisions.iter().filter(|contact| !contact.allowed).collect();
     let mut lines =
         vec![format!("  contacts not allowed  {}", if refused.is_empty() { "none".to_owned() } else { refused.len().to_string() })];
-    lines.extend(refused.iter().map(|contact| {
-        format!(
-            "    {RED}{} - {}{PLAIN}  {:.3} … {:.3} s, {:.2} mm deep, {:.1} N",
-            contact.a,
-            contact.b,
-            contact.first_time_s,
-            contact.last_time_s,
-            contact.max_depth_m * 1e3,
-            contact.max_force_n
-        )
-    }));
+    lines.extend(refused.iter().map(|contact| format!("    {RED}{}{PLAIN}", verdict::contact(contact))));
     lines
 }
 
+/// How many things the arm came nearest to are told.
+const NEAREST: usize = 4;
+
+/// The nearest part of the arm to everything that it came near but did not touch, the nearest first.
 fn clearances(report: &RunReport) -> Vec<String> {
-    let nearest = report.clearance.iter().filter_map(|clearance| Some((clearance, clearance.min_distance_m?)));
-    let line = |(index, (clearance, distance)): (usize, (&super::ClearanceReport, f64))| {
+    let mut nearest: Vec<(&ClearanceReport, f64)> = Vec::new();
+    for (clearance, distance) in report.clearance.iter().filter_map(|clearance| Some((clearance, clearance.min_distance_m?))) {
+        match nearest.iter_mut().find(|(known, _)| known.b == clearance.b) {
+            Some(known) if known.1 <= distance => {}
+            Some(known) => *known = (clearance, distance),
+            None => nearest.push((clearance, distance)),
+        }
+    }
+    nearest.retain(|(_, distance)| *distance > 0.0);
+    nearest.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let line = |(index, (clearance, distance)): (usize, &(&ClearanceReport, f64))| {
         let label = if index == 0 { "smallest clearance" } else { "" };
         format!("  {label:<20}  {} - {}  {:.1} mm at {:.2} s", clearance.a, clearance.b, distance * 1e3, clearance.time_s)
     };
-    nearest.enumerate().map(line).collect()
+    nearest.iter().take(NEAREST).enumerate().map(line).collect()
 }
 
 fn person(report: &RunReport) -> Option<String> {

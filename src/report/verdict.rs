@@ -5,10 +5,10 @@ use super::{CollisionReport, CriterionReport};
 
 /// The criterion's answer: `0.0187 m, limit 0.005 m, margin +0.0137 m`.
 pub(super) fn numbers(criterion: &CriterionReport) -> String {
-    let unit = criterion.unit;
-    let with_unit = |number: Option<f64>| number.map_or("no answer".to_owned(), |number| format!("{} {unit}", figure(number)));
+    let unit = if criterion.unit == "1" { String::new() } else { format!(" {}", criterion.unit) };
+    let with_unit = |number: Option<f64>| number.map_or("no answer".to_owned(), |number| format!("{}{unit}", figure(number)));
     let sign = |number: f64| if number < 0.0 { "" } else { "+" };
-    let margin = criterion.margin.map_or(String::new(), |number| format!(", margin {}{} {unit}", sign(number), figure(number)));
+    let margin = criterion.margin.map_or(String::new(), |number| format!(", margin {}{}{unit}", sign(number), figure(number)));
     format!("{}, limit {}{margin}", with_unit(criterion.value), with_unit(criterion.limit))
 }
 
@@ -22,15 +22,25 @@ pub(super) fn reason(criterion: &CriterionReport) -> String {
     format!("{found}: {}", numbers(criterion))
 }
 
-/// The contact: who, when, how deep, how hard.
+/// The contact: who, when, how deep and where, how hard.
 pub(super) fn contact(contact: &CollisionReport) -> String {
+    let [x, y, z] = contact.deepest_point_m;
     format!(
-        "{} touches {} from {:.3} to {:.3} s, {:.2} mm deep, {:.1} N",
+        "{} - {}  {:.3} … {:.3} s, {:.2} mm deep at [{x:.4}, {y:.4}, {z:.4}] m at {:.3} s, {:.1} N",
         contact.a,
         contact.b,
         contact.first_time_s,
         contact.last_time_s,
         contact.max_depth_m * 1e3,
+        contact.deepest_time_s,
         contact.max_force_n
     )
+}
+
+/// Why the contact is allowed, and where that stands: `the scenario allows it (allowed_contact.leaning, a.toml:12:8)`.
+pub(super) fn permission(contact: &CollisionReport) -> String {
+    let place = contact.reason_place.as_ref().map(|place| format!("{}:{}:{}", place.file, place.line, place.column));
+    let said: Vec<String> = contact.reason_key.iter().cloned().chain(place).collect();
+    let said = if said.is_empty() { String::new() } else { format!(" ({})", said.join(", ")) };
+    format!("{}{said}", contact.reason.unwrap_or("not allowed"))
 }

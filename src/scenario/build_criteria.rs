@@ -1,12 +1,19 @@
 //! A filled tree to what a run must show.
 
 use super::tree::Node;
-use crate::check::{CriterionKind, CriterionSpec, Expectation, PlanarSettings};
+use crate::check::{AllowedContact, CriterionKind, CriterionSpec, Expectation, PlanarSettings};
 use crate::planar::Method;
 
 /// What a scenario asks of the run.
 pub(super) fn criteria(scenario: &Node) -> Vec<CriterionSpec> {
     scenario.tables("criterion").iter().filter_map(criterion).collect()
+}
+
+/// The contacts that a scenario allows.
+pub(super) fn allowed_contacts(scenario: &Node) -> Vec<AllowedContact> {
+    let text = |table: &Node, key: &str| table.text(key).to_owned();
+    let contact = |table: &Node| AllowedContact { name: text(table, "name"), a: text(table, "a"), b: text(table, "b") };
+    scenario.tables("allowed_contact").iter().map(contact).collect()
 }
 
 fn method(table: &Node) -> Option<Method> {
@@ -38,7 +45,9 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
             speed_max_m_per_s: table.number("speed_max_m_per_s"),
         },
         "no_contact" => CriterionKind::NoContact { objects: table.texts("objects") },
-        "clearance" => CriterionKind::Clearance { objects: table.texts("objects"), min_m: table.number("min_m") },
+        "clearance" => {
+            CriterionKind::Clearance { objects: table.texts("objects"), links: table.texts("links"), min_m: table.number("min_m") }
+        }
         "planar_clearance" => {
             CriterionKind::PlanarClearance { method: method(table)?, settings: settings(table), min_m: table.number("min_m") }
         }

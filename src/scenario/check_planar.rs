@@ -5,7 +5,8 @@ use super::fault::{Code, Fault};
 use super::tree::{Node, Value};
 
 /// Tables of an arm, its world and its person.
-const OF_ARMS: [&str; 9] = ["parameters", "demonstrations", "robot", "simulation", "object", "teaching", "coupling", "execution", "human"];
+const OF_ARMS: [&str; 10] =
+    ["parameters", "demonstrations", "robot", "simulation", "object", "teaching", "coupling", "execution", "human", "allowed_contact"];
 
 /// Keys of the learning that planar experiments decide themselves.
 const DECIDED: [&str; 4] = ["theta_m", "theta_f", "space", "shaping"];

@@ -14,6 +14,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     let mut faults = Vec::new();
     unique_names(scenario, "object", &mut faults);
     unique_names(scenario, "criterion", &mut faults);
+    unique_names(scenario, "allowed_contact", &mut faults);
     references(scenario, &mut faults);
     planar(scenario, &mut faults);
     if is_typed(scenario, "planar") {

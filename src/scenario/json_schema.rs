@@ -96,7 +96,7 @@ impl Writer {
             Kind::Windows(measure) => json!({ "type": "array", "items": list(number(measure), Length::Exactly(2)) }),
             Kind::Text | Kind::Path(_) | Kind::Tag => json!({ "type": "string" }),
             Kind::Name | Kind::Reference(_) => name(),
-            Kind::Folders => json!({ "type": "array", "items": { "type": "string" } }),
+            Kind::Folders | Kind::Texts => json!({ "type": "array", "items": { "type": "string" } }),
             Kind::Choice(choices) => json!({ "enum": choices }),
             Kind::References(_) => json!({ "type": "array", "items": name() }),
             Kind::Section(shape) => self.table(shape),

@@ -35,6 +35,8 @@ pub(super) enum Kind {
     Windows(Measure),
     /// Free text.
     Text,
+    /// A list of texts.
+    Texts,
     /// A name: letters, digits, `_` and `-`.
     Name,
     /// A file or folder.

@@ -20,7 +20,7 @@ use super::schema::{SCENARIO, SCHEMA_VERSION};
 use super::source::Sources;
 use super::tree::{Node, Value};
 use super::work::Work;
-use crate::check::CriterionSpec;
+use crate::check::{AllowedContact, CriterionSpec};
 
 /// A scenario file, checked: everything in it makes sense on its own and together.
 #[derive(Clone, Debug)]
@@ -29,6 +29,8 @@ pub struct Scenario {
     pub work: Work,
     /// What the run must show.
     pub criteria: Vec<CriterionSpec>,
+    /// Contacts that it allows beyond those that every scene allows.
+    pub allowed_contacts: Vec<AllowedContact>,
     /// Where its parts were typed.
     pub places: Places,
     /// What is written to the run folder.
@@ -78,6 +80,7 @@ impl Scenario {
             Some(filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => Ok(Self {
                 work: work(&filled),
                 criteria: build_criteria::criteria(&filled),
+                allowed_contacts: build_criteria::allowed_contacts(&filled),
                 places: Places::of(&filled, &sources),
                 recording: build::recording(&filled),
                 description: filled.text("description").to_owned(),
@@ -270,11 +273,16 @@ mod tests {
             kind = "push"
             force_n = [10, 0, 0]
             windows_s = [[1, 2], [3, 4.5]]
+            [[allowed_contact]]
+            name = "leaning"
+            a = "left_hand"
+            b = "table"
         "#;
         let criteria = [
             "object_in_container\"\nobject = \"toy\"\ncontainer = \"basket\"",
             "no_contact\"\nobjects = [\"block\"]",
             "clearance\"\nobjects = [\"block\"]\nmin_m = 0.005",
+            "clearance\"\nobjects = [\"table\"]\nlinks = [\"left_hand\"]\nmin_m = 0.01",
             "no_collision\"",
             "expected_force\"\naxis = \"y\"\nmax_n = 0.5",
             "object_at\"\nobject = \"toy\"\nat = \"basket\"\noffset_m = [0, 0, 0.1]\nmax_m = 0.02",
@@ -291,6 +299,8 @@ mod tests {
         assert_eq!(again.resolved, typed.resolved);
         assert_eq!(format!("{:?}", again.work), format!("{:?}", typed.work));
         assert_eq!(again.criteria, typed.criteria);
-        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (12, 7));
+        assert_eq!(again.allowed_contacts, typed.allowed_contacts);
+        assert_eq!(typed.allowed_contacts.len(), 1);
+        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (13, 7));
     }
 }

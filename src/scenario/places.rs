@@ -10,7 +10,7 @@ use crate::check::Place;
 pub struct Places(Vec<(String, Place)>);
 
 /// The lists whose entries have names.
-const NAMED: [&str; 2] = ["criterion", "object"];
+const NAMED: [&str; 3] = ["criterion", "object", "allowed_contact"];
 
 impl Places {
     /// The places of a filled tree.

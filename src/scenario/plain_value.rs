@@ -38,7 +38,7 @@ impl Conform<'_> {
             (Kind::Name, Value::Text(name)) => self.name(name, typed.origin, path),
             (Kind::Choice(choices), Value::Text(word)) => self.choice(word, choices.iter().copied(), typed.origin, path),
             (Kind::Reference(_), Value::Text(_)) => typed.value,
-            (Kind::References(_), Value::List(items)) => Value::List(self.texts(items, path)),
+            (Kind::References(_) | Kind::Texts, Value::List(items)) => Value::List(self.texts(items, path)),
             (Kind::Path(to), Value::Text(text)) => self.path(*to, text, typed.origin, path),
             (Kind::Folders, Value::List(items)) => {
                 let folder = |item: &Node| self.plain_value(&Kind::Path(PathTo::Folder), item.clone(), path);

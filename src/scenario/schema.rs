@@ -2,7 +2,7 @@
 
 use super::key::Kind::{
     Choice, Count, CountOrWord, Flag, Folders, Grid, List, Name, Number, NumberOrWord, Numbers, Path, Quantity, Reference, References,
-    Section, Tag, Text, Vector, Windows,
+    Section, Tag, Text, Texts, Vector, Windows,
 };
 use super::key::Length::{AtLeast, Exactly};
 use super::key::To::{MovableObject, Object, ObjectOfKind, Parameter};
@@ -31,6 +31,7 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
     Key::new("execution", Section(EXECUTION), "how the skill is executed").or_empty(),
     Key::new("human", Section(HUMAN), "the virtual human").or_empty(),
     Key::new("recording", Section(RECORDING), "what is written to the run folder").or_empty(),
+    Key::new("allowed_contact", List(ALLOWED_CONTACT), "contacts that are no collisions").or_empty(),
     Key::new("criterion", List(CRITERION), "what the run must show").or_empty(),
 ]);
 
@@ -172,7 +173,7 @@ const OBJECT: Shape = Shape {
                 Key::new("aperture_m", Number(within("m", 0.01, 2.0)), "free width between the posts, along x"),
                 Key::new("post_height_m", Number(within("m", 0.005, 1.0)), "height of the posts above the base"),
                 Key::new("post_width_m", Number(within("m", 0.001, 1.0)), "width of each post, along x").or_number(0.03),
-                Key::new("thickness_m", Number(within("m", 0.001, 1.0)), "extent along y").or_number(0.05),
+                Key::new("thickness_m", Number(within("m", 0.0001, 1.0)), "extent along y").or_number(0.05),
                 Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.5),
             ],
         },
@@ -445,6 +446,12 @@ const RECORDING: Shape = Shape::plain(&[
 /// What makes movements in planar experiments.
 const METHODS: [&str; 5] = ["cpdmp", "cpdmp_product", "cpdmp_chain", "lwr_dmp", "tp_gmm"];
 
+const ALLOWED_CONTACT: Shape = Shape::plain(&[
+    Key::new("name", Name, "its name in reports"),
+    Key::new("a", Text, "a link of the robot or an object, with all its parts"),
+    Key::new("b", Text, "the other one"),
+]);
+
 const CRITERION: Shape = Shape {
     keys: &[
         Key::new("name", Name, "its name in reports"),
@@ -464,7 +471,8 @@ const CRITERION: Shape = Shape {
         Variant {
             kind: "clearance",
             keys: &[
-                Key::new("objects", References(ObjectOfKind("u_block")), "what must be kept away from"),
+                Key::new("objects", References(Object), "what must be kept away from"),
+                Key::new("links", Texts, "links of the robot, or objects in the gripper, whose distance counts; all without it").or_empty(),
                 Key::new("min_m", Number(within("m", 0.0, 1.0)), "smallest distance"),
             ],
         },
@@ -580,7 +588,7 @@ mod tests {
                 (Count(min, max) | CountOrWord(min, max, _), Preset::Count(count)) => (min..=max).contains(&count),
                 (Choice(choices), Preset::Text(text)) => choices.contains(&text),
                 (Flag, Preset::Flag(_)) | (Text | Path(_) | Tag, Preset::Text(_)) => true,
-                (Numbers | Grid | Section(_) | List(_) | References(_) | Folders, Preset::Empty) => true,
+                (Numbers | Grid | Section(_) | List(_) | References(_) | Texts | Folders, Preset::Empty) => true,
                 (_, preset) => matches!(preset, Preset::Required | Preset::Optional),
             };
             assert!(suits, "{key:?}");

@@ -19,6 +19,7 @@ impl Kind {
             Self::Vector(measure, length) => format!("{}{}", length.describe(), in_range(measure)),
             Self::Windows(measure) => format!("a list of [start, end]{}", in_range(measure)),
             Self::Text => "text".to_owned(),
+            Self::Texts => "a list of texts".to_owned(),
             Self::Name => "a name of letters, digits, `_` and `-`, at most 64".to_owned(),
             Self::Path(PathTo::Robot) => "a URDF file, or \"builtin:baxter\"".to_owned(),
             Self::Path(PathTo::Dataset) => "the folder of a dataset".to_owned(),

@@ -56,4 +56,7 @@ pub enum SimulationError {
     /// The recorded demonstrations do not fit the experiment.
     #[error("the demonstrations do not fit the scenario: {0}")]
     Mismatch(String),
+    /// A movement that is to be judged does not fit the robot.
+    #[error("the trajectory cannot be judged: {0}")]
+    Trajectory(String),
 }

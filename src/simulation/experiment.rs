@@ -37,8 +37,8 @@ pub struct Experiment {
     pub learning: LearningSettings,
     /// How it is executed.
     pub execution: ExecutionPlan,
-    /// Samples per second in the step log and the recording (Hz), from which criteria about moments are answered. Contacts and the person's peak
-    /// force are taken at every engine step regardless, clearances at 200 Hz.
+    /// Samples per second in the step log and the recording (Hz), from which criteria about moments are answered. Contacts, clearances and the
+    /// person's peak force are taken at every engine step regardless.
     pub log_rate_hz: f64,
 }
 

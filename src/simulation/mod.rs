@@ -2,10 +2,12 @@
 //!
 //! Data flows one way: an [`Experiment`] goes in, a [`RunOutcome`] comes out, and everything told about a step is a [`StepRecord`].
 
+mod arm_motion;
 mod error;
 mod execution;
 mod experiment;
 mod guide_path;
+mod motion_check;
 mod outcome;
 mod person;
 mod preflight;
@@ -18,8 +20,10 @@ mod step_loop;
 mod step_record;
 mod teaching;
 
+pub use arm_motion::{ArmMotion, Reach};
 pub use error::SimulationError;
 pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings, TeachingPlan, Waypoint};
+pub use motion_check::{JointExtreme, MotionOutcome, check_motion};
 pub use outcome::{AppliedForce, FinalObject, PhaseSummary, RunOutcome};
 pub use progress::{Progress, Silent};
 pub use run::{History, demonstrate, perform, run};

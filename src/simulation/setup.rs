@@ -7,7 +7,7 @@ use nalgebra::Isometry3;
 use super::{Experiment, RobotSettings, SimulationError};
 use crate::control::{ArmModel, HoldPosture, PoseTracker, WrenchObserver};
 use crate::robot::baxter::{LEFT_HAND, LEFT_TOOL};
-use crate::robot::{self, Finding, LoadOptions, Loaded, RobotModel};
+use crate::robot::{self, Finding, Joint, LoadOptions, Loaded, RobotModel};
 use crate::world::{EffortSensors, Parameters, World, WorldSettings};
 
 /// An experiment with its robot loaded.
@@ -53,9 +53,6 @@ fn load(path: &Path, settings: &RobotSettings) -> Result<Loaded, SimulationError
     }
     Ok(robot::load(path, &LoadOptions { attachments: vec![robot::electric_gripper()], ..options })?)
 }
-
-/// Seconds between two measurements of the clearances.
-const CLEARANCE_INTERVAL_S: f64 = 0.005;
 
 impl Setup {
     /// Loads the robot of `experiment`.
@@ -130,10 +127,15 @@ impl Setup {
         })
     }
 
-    /// The world in the setting `parameters` with the working arm at `posture_rad`; `watch` measures clearances.
-    pub(super) fn world(&self, parameters: &Parameters, posture_rad: &[f64], watch: bool) -> Result<World, SimulationError> {
+    /// The joints of the working arm, from the shoulder.
+    pub(super) fn arm_joints(&self) -> Vec<Joint> {
+        self.arm.chain_joints().cloned().collect()
+    }
+
+    /// What a world is made of in the setting `parameters` with the working arm at `posture_rad`; `watch` measures clearances.
+    pub(super) fn world_settings<'a>(&'a self, parameters: &'a Parameters, posture_rad: &'a [f64], watch: bool) -> WorldSettings<'a> {
         let settings = &self.experiment.robot;
-        Ok(World::new(&WorldSettings {
+        WorldSettings {
             physics: &self.experiment.physics,
             robot: &self.robot,
             tool: &settings.tool_link,
@@ -144,8 +146,13 @@ impl Setup {
             dry_friction_nm: settings.sensor.dry_friction_nm,
             objects: &self.experiment.objects,
             parameters,
-            clearance_interval_s: if watch { CLEARANCE_INTERVAL_S } else { 0.0 },
-        })?)
+            watch,
+        }
+    }
+
+    /// The world of [`Self::world_settings`].
+    pub(super) fn world(&self, parameters: &Parameters, posture_rad: &[f64], watch: bool) -> Result<World, SimulationError> {
+        Ok(World::new(&self.world_settings(parameters, posture_rad, watch))?)
     }
 
     /// Number of steps in `seconds`.

@@ -1,8 +1,12 @@
 //! Keeps book of everything that touches, at every step.
 
-use rapier3d_f64::prelude::PhysicsWorld;
+use nalgebra::Point3;
+use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
 
-use super::parts::{Owner, Parts};
+use super::convert;
+use super::gap::Gap;
+use super::parts::{Owner, Part, Parts};
+use super::proximity::Touch;
 
 /// All contacts of one pair of parts during a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,15 +17,34 @@ pub struct ContactEpisode {
     pub b: String,
     /// Whether the scene allows the pair to touch.
     pub allowed: bool,
+    /// Why, if it is allowed.
+    pub permission: Option<Permission>,
     /// First time (s).
     pub first_time_s: f64,
     /// Last time (s).
     pub last_time_s: f64,
     /// Deepest penetration (m).
     pub max_depth_m: f64,
-    /// Largest normal force (N).
+    /// When it was deepest (s), and where (m, world): the middle of the two deepest points.
+    pub deepest_time_s: f64,
+    /// Where (m, world).
+    pub deepest_point: Point3<f64>,
+    /// Largest normal force (N); 0 of a touch that the engine did not see because it began and ended within a step.
     pub max_force_n: f64,
+    /// The smallest distance so far, negative inside (m).
+    least_m: f64,
     pair: (usize, usize),
+}
+
+/// Why a pair may touch.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Permission {
+    /// Fingers are there to grasp this movable object.
+    Grasp(String),
+    /// Objects lie on, in and against each other.
+    Objects,
+    /// The scenario says so, in its entry of this name.
+    Scenario(String),
 }
 
 /// The book of contacts.
@@ -40,42 +63,80 @@ impl ContactBook {
         let step = engine.integration_parameters.dt;
         for pair in engine.narrow_phase.contact_pairs() {
             let force = pair.total_impulse_magnitude() / step;
-            let depth = pair.find_deepest_contact().map_or(f64::NEG_INFINITY, |(_, contact)| -contact.dist);
-            if force <= 0.0 && depth < 0.0 {
+            let near = pair.find_deepest_contact().is_some_and(|(_, contact)| contact.dist <= 0.0);
+            if force <= 0.0 && !near {
                 continue;
             }
             let part = |collider| engine.colliders.get(collider).and_then(|c| parts.of(c.user_data));
             let (Some(a), Some(b)) = (part(pair.collider1), part(pair.collider2)) else { continue };
             // The robot first, then what moves.
-            let (a, b) = if rank(a.1.owner, movable) <= rank(b.1.owner, movable) { (a, b) } else { (b, a) };
+            let ordered = rank(a.1.owner, movable) <= rank(b.1.owner, movable);
+            let (a, b) = if ordered { (a, b) } else { (b, a) };
+            let (first, second) = if ordered { (pair.collider1, pair.collider2) } else { (pair.collider2, pair.collider1) };
             if let (Owner::Robot { body, finger: true, .. }, Owner::Object(object)) = (a.1.owner, b.1.owner)
                 && movable[object]
             {
                 self.grips.push((body, object));
             }
-            let key = (a.0, b.0);
-            let episode = match self.episodes.iter().position(|e| e.pair == key) {
-                Some(index) => &mut self.episodes[index],
-                None => {
-                    self.episodes.push(ContactEpisode {
-                        a: a.1.name.clone(),
-                        b: b.1.name.clone(),
-                        allowed: allowed(a.1.owner, b.1.owner, movable),
-                        first_time_s: time_s,
-                        last_time_s: time_s,
-                        max_depth_m: 0.0,
-                        max_force_n: 0.0,
-                        pair: key,
-                    });
-                    let last = self.episodes.len() - 1;
-                    &mut self.episodes[last]
-                }
-            };
+            // The engine's contacts are those of the step's start: where the parts are now is asked of their shapes.
+            let gap = colliders_gap(engine, first, second);
+            let episode = self.episode((a.0, b.0), parts, movable, time_s);
             episode.last_time_s = time_s;
-            episode.max_depth_m = episode.max_depth_m.max(depth.max(0.0));
             episode.max_force_n = episode.max_force_n.max(force);
+            if let Some(gap) = gap {
+                episode.deepen(time_s, &gap);
+            }
         }
     }
+
+    /// Notes a touch that the shapes tell.
+    pub(super) fn note(&mut self, touch: &Touch, parts: &Parts, movable: &[bool]) {
+        let episode = self.episode(touch.parts, parts, movable, touch.time_s);
+        episode.first_time_s = episode.first_time_s.min(touch.time_s);
+        episode.last_time_s = episode.last_time_s.max(touch.time_s);
+        episode.deepen(touch.time_s, &touch.gap);
+    }
+
+    /// The episode of a pair, the robot's part first, then what moves.
+    fn episode(&mut self, pair: (usize, usize), parts: &Parts, movable: &[bool], time_s: f64) -> &mut ContactEpisode {
+        let index = self.episodes.iter().position(|episode| episode.pair == pair).unwrap_or_else(|| {
+            let (a, b) = (parts.get(pair.0), parts.get(pair.1));
+            let permission = permission(a, b, movable);
+            self.episodes.push(ContactEpisode {
+                a: a.name.clone(),
+                b: b.name.clone(),
+                allowed: permission.is_some(),
+                permission,
+                first_time_s: time_s,
+                last_time_s: time_s,
+                max_depth_m: 0.0,
+                deepest_time_s: time_s,
+                deepest_point: Point3::origin(),
+                max_force_n: 0.0,
+                least_m: f64::INFINITY,
+                pair,
+            });
+            self.episodes.len() - 1
+        });
+        &mut self.episodes[index]
+    }
+}
+
+impl ContactEpisode {
+    /// Where a hard contact keeps parts a hair apart, the nearest moment stands for the deepest.
+    fn deepen(&mut self, time_s: f64, gap: &Gap) {
+        if gap.distance_m < self.least_m {
+            self.least_m = gap.distance_m;
+            self.max_depth_m = gap.depth_m();
+            self.deepest_time_s = time_s;
+            self.deepest_point = convert::point_back(gap.middle());
+        }
+    }
+}
+
+fn colliders_gap(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> Option<Gap> {
+    let (a, b) = (engine.colliders.get(a)?, engine.colliders.get(b)?);
+    Gap::between(a.position(), a.shape(), b.position(), b.shape())
 }
 
 fn rank(owner: Owner, movable: &[bool]) -> usize {
@@ -87,10 +148,10 @@ fn rank(owner: Owner, movable: &[bool]) -> usize {
 }
 
 /// Movable objects may touch the gripper's fingers and lie on things; whether they may touch a particular object is a scenario's criterion.
-fn allowed(a: Owner, b: Owner, movable: &[bool]) -> bool {
-    match (a, b) {
-        (Owner::Robot { finger, .. }, Owner::Object(object)) => finger && movable[object],
-        (Owner::Object(_), Owner::Object(_)) => true,
-        _ => false,
+fn permission(a: &Part, b: &Part, movable: &[bool]) -> Option<Permission> {
+    match (a.owner, b.owner) {
+        (Owner::Robot { finger: true, .. }, Owner::Object(object)) if movable[object] => Some(Permission::Grasp(b.name.clone())),
+        (Owner::Object(_), Owner::Object(_)) => Some(Permission::Objects),
+        _ => None,
     }
 }

@@ -3,29 +3,37 @@
 //! Frame: the robot's base frame (x forward, y left, z up); SI units. This is the only room that knows the physics engine.
 
 mod articulation;
-mod clearance;
 mod contacts;
 mod convert;
 mod drive;
 mod error;
+mod even_motion;
+mod gap;
+mod kinematic_scene;
+mod mechanism;
 mod object;
 mod overlap;
 mod parameters;
 mod parts;
+mod passage;
 mod physics;
+mod proximity;
 mod robot_body;
 mod scene;
 mod seen;
 mod sensors;
 mod simulated_world;
 mod virtual_human;
+mod watch;
 
-pub use clearance::Clearance;
-pub use contacts::ContactEpisode;
+pub use contacts::{ContactEpisode, Permission};
 pub use error::WorldError;
+pub use kinematic_scene::{KinematicScene, Placement};
 pub use object::{Object, ObjectKind, Solid, support_height_m};
 pub use parameters::{Parameters, Quantity};
+pub use passage::{NEAR_M, RESOLUTION_M};
 pub use physics::PhysicsSettings;
+pub use proximity::{Clearance, nearest_of_each};
 pub use scene::{ObjectPart, PartShape, object_parts};
 pub use sensors::{EffortSensors, SensorSettings};
 pub use simulated_world::{World, WorldSettings};

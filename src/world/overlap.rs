@@ -1,10 +1,10 @@
 //! Refuses a scene in which something starts inside something else: the engine would throw it out.
 
 use parry3d_f64::bounding_volume::BoundingVolume;
-use parry3d_f64::query;
 use rapier3d_f64::prelude::{Collider, PhysicsWorld};
 
 use super::WorldError;
+use super::gap::Gap;
 use super::parts::{Owner, Part, Parts};
 
 /// Penetration from which a scene is refused (m): more than rounding in a file's numbers.
@@ -48,8 +48,5 @@ fn depth(a: &Collider, b: &Collider) -> f64 {
     if !a.compute_aabb().intersects(&b.compute_aabb()) {
         return 0.0;
     }
-    match query::contact(a.position(), a.shape(), b.position(), b.shape(), 0.0) {
-        Ok(Some(contact)) => -contact.dist,
-        _ => 0.0,
-    }
+    Gap::between(a.position(), a.shape(), b.position(), b.shape()).map_or(0.0, |gap| gap.depth_m())
 }

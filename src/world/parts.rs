@@ -28,7 +28,7 @@ pub(crate) enum Limb {
 }
 
 /// A part that can be touched.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Part {
     /// Its name in reports: `left_hand`, `block_1.near_post`.
     pub name: String,
@@ -36,15 +36,26 @@ pub(crate) struct Part {
     pub owner: Owner,
 }
 
-/// All parts; a collider's user data is its index here.
+/// All parts; a collider's user data is the index of its part.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Parts(Vec<Part>);
 
 impl Parts {
-    /// Adds a part and returns its index.
+    /// Adds a part and returns its index; several shapes of one name are one part.
     pub(crate) fn add(&mut self, part: Part) -> usize {
+        if let Some(known) = self.0.iter().position(|known| *known == part) {
+            return known;
+        }
         self.0.push(part);
         self.0.len() - 1
+    }
+
+    /// The part with this index.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub(crate) fn get(&self, index: usize) -> &Part {
+        &self.0[index]
     }
 
     /// The part of a collider's user data.

@@ -106,9 +106,9 @@ impl World {
         &self.contacts.episodes
     }
 
-    /// Smallest distances to the watched objects so far.
+    /// Smallest distances so far, from each part of the arm to each thing that it could hit; none when they are not watched.
     pub fn clearances(&self) -> &[Clearance] {
-        &self.clearance.smallest
+        self.watch.as_ref().map_or(&[], |watch| &watch.book.smallest)
     }
 
     /// Hash over the bits of every moving body's state at every step so far.

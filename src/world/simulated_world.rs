@@ -5,11 +5,11 @@ use std::hash::Hasher;
 use rapier3d_f64::prelude::{PhysicsWorld, RigidBody, RigidBodyHandle};
 use twox_hash::XxHash3_64;
 
-use super::clearance::ClearanceBook;
 use super::contacts::ContactBook;
 use super::parts::Parts;
 use super::robot_body::{Limbs, RobotBody};
-use super::{HandWrench, Object, ObjectKind, Parameters, PhysicsSettings, WorldError, convert, overlap, physics, scene};
+use super::watch::EngineWatch;
+use super::{HandWrench, Object, Parameters, PhysicsSettings, WorldError, convert, overlap, physics, scene};
 use crate::robot::{JointCommand, RobotModel};
 
 /// What a world is made of.
@@ -35,8 +35,8 @@ pub struct WorldSettings<'a> {
     pub objects: &'a [Object],
     /// The setting.
     pub parameters: &'a Parameters,
-    /// Seconds between two measurements of the clearances; 0 measures none.
-    pub clearance_interval_s: f64,
+    /// Whether distances and touches are watched, at every step and in between.
+    pub watch: bool,
 }
 
 /// The simulated world.
@@ -49,8 +49,7 @@ pub struct World {
     pub(super) movable: Vec<bool>,
     pub(super) finger_range: FingerRange,
     pub(super) contacts: ContactBook,
-    pub(super) clearance: ClearanceBook,
-    pub(super) clearance_every: u64,
+    pub(super) watch: Option<EngineWatch>,
     pub(super) held: Vec<usize>,
     pub(super) joint_state: (Vec<f64>, Vec<f64>),
     pub(super) hand: HandWrench,
@@ -62,8 +61,15 @@ impl World {
     /// Builds the world at time 0.
     ///
     /// # Errors
-    /// When the robot lacks the tool, the grasp or an arm, or a collision shape cannot be used.
+    /// When the robot lacks the tool, the grasp or an arm, a collision shape cannot be used, or something starts inside something else.
     pub fn new(settings: &WorldSettings) -> Result<Self, WorldError> {
+        let world = Self::build(settings)?;
+        overlap::refuse(&world.engine, &world.parts)?;
+        Ok(world)
+    }
+
+    /// The world as the settings say, whatever stands inside what.
+    pub(super) fn build(settings: &WorldSettings) -> Result<Self, WorldError> {
         let mut engine = physics::engine(settings.physics);
         let mut parts = Parts::default();
         let model = settings.robot;
@@ -78,9 +84,8 @@ impl World {
         }
         let objects = scene::build(&mut engine, settings.objects, settings.parameters, &mut parts);
         let movable: Vec<bool> = settings.objects.iter().map(Object::is_movable).collect();
-        let watched: Vec<bool> = settings.objects.iter().map(|o| matches!(o.kind, ObjectKind::UBlock { .. })).collect();
         let names: Vec<String> = settings.objects.iter().map(|o| o.name.clone()).collect();
-        let clearance = ClearanceBook::new(&engine, &parts, &names, &watched, &movable);
+        let watch = settings.watch.then(|| EngineWatch::new(&engine, &parts, &names, &movable));
         let n = limbs.working.len();
         let mut world = Self {
             engine,
@@ -91,8 +96,7 @@ impl World {
             movable,
             finger_range,
             contacts: ContactBook::default(),
-            clearance,
-            clearance_every: (settings.clearance_interval_s / settings.physics.step_s).round() as u64,
+            watch,
             held: Vec::new(),
             joint_state: (vec![0.0; n], vec![0.0; n]),
             hand: HandWrench::default(),
@@ -101,7 +105,6 @@ impl World {
         };
         world.command_gripper(1.0);
         world.read_joints();
-        overlap::refuse(&world.engine, &world.parts)?;
         Ok(world)
     }
 
@@ -146,11 +149,19 @@ impl World {
         let time_s = self.time_s();
         self.contacts.record(&self.engine, &self.parts, &self.movable, time_s);
         self.update_held();
-        if self.clearance_every > 0 && self.step.is_multiple_of(self.clearance_every) {
-            self.clearance.record(&self.engine, &self.parts, &self.held, time_s);
-        }
+        self.watch_step(time_s);
         self.hash_state();
         Ok(())
+    }
+
+    /// What the shapes tell about the step beyond the engine's contacts.
+    fn watch_step(&mut self, time_s: f64) {
+        let Some(watch) = &mut self.watch else { return };
+        let start_s = (self.step - 1) as f64 * self.engine.integration_parameters.dt;
+        watch.follow(&self.engine, &self.held, (start_s, time_s));
+        for touch in &watch.book.touches {
+            self.contacts.note(touch, &self.parts, &self.movable);
+        }
     }
 
     fn apply_hand(&mut self) {
@@ -197,7 +208,7 @@ fn state_of(body: &RigidBody) -> [f64; 13] {
 }
 
 /// Range of a gripper's leading finger: where it is closed and where it is open (m).
-type FingerRange = Option<(f64, f64)>;
+pub(super) type FingerRange = Option<(f64, f64)>;
 
 /// Positions of the joints of a tree at the start: the arm's posture, and fingers that are open.
 fn starting_positions(model: &RobotModel, tree: &[usize], arm: &[usize], posture: &[f64]) -> Result<Vec<f64>, WorldError> {
@@ -213,11 +224,16 @@ fn starting_positions(model: &RobotModel, tree: &[usize], arm: &[usize], posture
     for (&dof, &angle) in arm.iter().zip(posture) {
         positions[dof] = angle;
     }
-    for (dof, joint) in tree.iter().map(|&joint| &model.joints[joint]).enumerate() {
-        if let Some(mimic) = &joint.mimic {
+    follow_leaders(model, tree, &mut positions);
+    Ok(positions)
+}
+
+/// Puts the joints of a tree that follow others where those are.
+pub(super) fn follow_leaders(model: &RobotModel, tree: &[usize], positions: &mut [f64]) {
+    for (dof, &joint) in tree.iter().enumerate() {
+        if let Some(mimic) = &model.joints[joint].mimic {
             let leader = tree.iter().position(|&j| j == mimic.joint).map_or(0.0, |place| positions[place]);
             positions[dof] = mimic.multiplier * leader + mimic.offset;
         }
     }
-    Ok(positions)
 }

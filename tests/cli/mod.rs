@@ -1,6 +1,7 @@
 //! The real binary, as a person or a CI job calls it.
 
 mod check;
+mod check_motion;
 mod commands;
 mod examples;
 mod generate;

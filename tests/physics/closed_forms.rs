@@ -52,7 +52,7 @@ fn a_pendulum_swings_with_the_period_of_its_inertia() {
         dry_friction_nm: 0.0,
         objects: &[],
         parameters: &Parameters::default(),
-        clearance_interval_s: 0.0,
+        watch: false,
     })
     .expect("the world is built");
     let mut crossings = Vec::new();

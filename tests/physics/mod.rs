@@ -1,6 +1,8 @@
 //! The robot's mathematics and the simulated world, each against independent truth.
 
 mod closed_forms;
+mod collisions;
+pub mod collisions_in_engine;
 mod joint_torques;
 mod objects;
 mod robot_arm;

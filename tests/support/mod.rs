@@ -28,7 +28,7 @@ pub fn world(robot: &RobotModel, posture: &[f64], objects: &[Object], gravity: [
         dry_friction_nm,
         objects,
         parameters: &Parameters::default(),
-        clearance_interval_s: 0.0,
+        watch: false,
     })
     .expect("the world is built")
 }

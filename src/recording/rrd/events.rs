@@ -4,6 +4,7 @@ use super::entity_path::EVENTS;
 use super::lanes::{CLOSED, beta_in_words, holds};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{RunOutcome, StepRecord};
+use crate::world::{NEAR_M, nearest_of_each};
 
 /// Something worth a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +50,7 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
             events.push(note(now.time_s, format!("the person lets go (peak {:.1} N)", peak_of_hold(records, before.step))));
         }
     }
-    for clearance in outcome.clearances.iter().filter(|c| c.min_distance_m.is_finite()) {
+    for clearance in nearest_of_each(&outcome.clearances).into_iter().filter(|c| c.min_distance_m < NEAR_M) {
         let text = format!("closest to {}: {} at {:.0} mm", clearance.b, clearance.a, clearance.min_distance_m * 1e3);
         events.push(note(clearance.time_s, text));
     }

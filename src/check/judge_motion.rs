@@ -1,0 +1,49 @@
+//! Judges a movement that was not simulated: what it touches, how near it comes, whether the joints can go that way.
+
+use super::judge::{Answer, belongs, clearance_of, first_time};
+use super::judge_objects::no_collision;
+use super::{Criterion, CriterionKind, CriterionSpec, Expectation};
+use crate::simulation::MotionOutcome;
+use crate::world::Permission;
+
+/// Furthest that the tool may stay away from a pose that it is asked for (m): what the controller holds.
+const REACH_M: f64 = 1e-3;
+
+/// Whether the arm can go that way (joint limits, speeds, poses), whether it touches anything that the scene does not allow, and those of
+/// `specs` that geometry can answer: contacts and clearances. The others are left out: they ask about a skill, a person or forces.
+#[must_use]
+pub fn judge_motion(outcome: &MotionOutcome, specs: &[CriterionSpec]) -> Vec<Criterion> {
+    let own = |name: &str, answer: Answer, upper: bool| {
+        let spec = CriterionSpec { name: name.to_owned(), kind: CriterionKind::NoCollision, expect: Expectation::Pass };
+        answer.criterion(&spec, upper)
+    };
+    let mut criteria = vec![own("contacts_allowed", no_collision(&outcome.collisions), true)];
+    let failed = |fails: bool, time_s: f64| fails.then_some(time_s);
+    let (limit, speed) = (&outcome.limit, &outcome.speed);
+    let limit = Answer::at_least(limit.value, 0.0, "rad").first_failed(failed(limit.value < 0.0, limit.time_s));
+    let speed = Answer::at_most(speed.value, 1.0, "1").first_failed(failed(speed.value > 1.0, speed.time_s));
+    criteria.push(own("joint_limits", limit, false));
+    criteria.push(own("joint_speeds", speed, true));
+    if let Some(reach) = outcome.reach {
+        let answer = Answer::at_most(reach.position_error_m, REACH_M, "m");
+        criteria.push(own("poses_reached", answer.first_failed(failed(reach.position_error_m > REACH_M, reach.time_s)), true));
+    }
+    criteria.extend(specs.iter().filter_map(|spec| answered(outcome, spec)));
+    criteria
+}
+
+fn answered(outcome: &MotionOutcome, spec: &CriterionSpec) -> Option<Criterion> {
+    match &spec.kind {
+        CriterionKind::NoContact { objects } => {
+            let touching = || outcome.collisions.iter().filter(|c| belongs(&c.a, objects) != belongs(&c.b, objects));
+            // Things that stand on each other belong to the scene, not to the movement.
+            let moved = || touching().filter(|contact| contact.permission.as_ref() != Some(&Permission::Objects));
+            Some(Answer::at_most(moved().count() as f64, 0.0, "pairs").first_failed(first_time(moved())).criterion(spec, true))
+        }
+        CriterionKind::NoCollision => Some(no_collision(&outcome.collisions).criterion(spec, true)),
+        CriterionKind::Clearance { objects, links, min_m } => {
+            Some(clearance_of(&outcome.clearances, objects, links, *min_m).criterion(spec, false))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,65 @@
+//! What `cpdmp check` is asked to judge: scenarios, stored runs, trajectories.
+
+use std::path::{Path, PathBuf};
+
+use super::args::Check;
+use super::select::{files_like, scenarios};
+use super::terminal::Terminal;
+use crate::report::Outcome;
+
+/// One thing to check.
+pub(super) enum Target {
+    /// A scenario, which is simulated.
+    Scenario(PathBuf),
+    /// The folder of a run, whose logged movement is judged again.
+    Run(PathBuf),
+    /// A file with a movement, which is judged in the scene of this scenario.
+    Trajectory(PathBuf, PathBuf),
+}
+
+/// Extensions of files with samples.
+const SAMPLES: [&str; 4] = ["csv", "tsv", "txt", "parquet"];
+
+/// Everything that the arguments name, in their order. An argument that names nothing is reported.
+pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Target>, Outcome> {
+    let mut targets = Vec::new();
+    let mut outcome = Outcome::Passed;
+    for path in &arguments.paths {
+        let found = if is_run(path) {
+            vec![Target::Run(path.clone())]
+        } else if is_samples(path) {
+            let Some(scene) = &arguments.scene else {
+                let path = path.display();
+                terminal.error(&format!("error: {path} is a movement: say with --scene SCENARIO in which scene it is judged\n"));
+                outcome = outcome.max(Outcome::Usage);
+                continue;
+            };
+            files_like(path).into_iter().map(|file| Target::Trajectory(file, scene.clone())).collect()
+        } else {
+            let runs = runs_in(path).into_iter().map(Target::Run);
+            scenarios(path).into_iter().map(Target::Scenario).chain(runs).collect()
+        };
+        if found.is_empty() {
+            terminal.error(&format!("error: {} names no scenario, run or trajectory\n", path.display()));
+            outcome = outcome.max(Outcome::NothingSelected);
+        }
+        targets.extend(found);
+    }
+    if outcome == Outcome::Passed { Ok(targets) } else { Err(outcome) }
+}
+
+fn is_run(path: &Path) -> bool {
+    path.join("manifest.json").is_file()
+}
+
+fn is_samples(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| SAMPLES.iter().any(|known| extension.eq_ignore_ascii_case(known)))
+}
+
+/// The runs in a folder, sorted.
+fn runs_in(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut runs: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(|path| is_run(path)).collect();
+    runs.sort();
+    runs
+}

@@ -1,0 +1,99 @@
+//! A movement of the arm that somebody wrote down: joint angles or tool poses over time.
+
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+
+use super::{Setup, SimulationError};
+use crate::demonstration::{QUATERNION_COLUMNS, Trajectory};
+
+/// A movement in the joints of the working arm.
+#[derive(Clone, Debug)]
+pub struct ArmMotion {
+    /// Times (s), rising.
+    pub times_s: Vec<f64>,
+    /// Joint angles at each time, from the shoulder (rad).
+    pub arm_rad: Vec<Vec<f64>>,
+    /// Opening of the gripper at each time (0 closed … 1 open); open when nothing is said.
+    pub gripper: Vec<f64>,
+    /// `world_from_object` of every object at each time, when it is known for all of them.
+    pub objects: Option<Vec<Vec<Isometry3<f64>>>>,
+    /// Of tool poses: how far the arm stays away from them at worst.
+    pub reach: Option<Reach>,
+}
+
+/// How well the arm reaches the poses that it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Largest distance of the tool from its pose (m), and when (s).
+    pub position_error_m: f64,
+    /// The time of that (s).
+    pub time_s: f64,
+    /// Largest angle between them (rad).
+    pub orientation_error_rad: f64,
+}
+
+impl ArmMotion {
+    /// From the columns of a trajectory: `NAME_rad` for every joint of the working arm, or `q1_rad`, `q2_rad` … from the shoulder, or the
+    /// tool's pose `x_m, y_m, z_m, qx, qy, qz, qw` (world). `gripper` is its opening; `OBJECT_x_m` … `OBJECT_qw` of all objects, as a step log
+    /// has them, are where those are.
+    ///
+    /// # Errors
+    /// When the columns hold neither joints nor poses.
+    pub fn new(setup: &Setup, trajectory: &Trajectory) -> Result<Self, SimulationError> {
+        let mut arm = setup.arm();
+        let named: Vec<String> = (0..arm.joints()).map(|joint| format!("{}_rad", arm.joint_name(joint))).collect();
+        let counted: Vec<String> = (1..=arm.joints()).map(|number| format!("q{number}_rad")).collect();
+        let objects = objects(setup, trajectory);
+        let gripper = trajectory.gripper().or_else(|| trajectory.column("gripper_opening"));
+        let gripper = gripper.map_or_else(|| vec![1.0; trajectory.samples()], |column| column.as_slice().to_vec());
+        let mut motion = Self {
+            times_s: trajectory.times_s().to_vec(),
+            arm_rad: Vec::with_capacity(trajectory.samples()),
+            gripper,
+            objects,
+            reach: None,
+        };
+        for names in [&named, &counted] {
+            if let Ok(angles) = trajectory.select(names) {
+                motion.arm_rad.extend(angles.row_iter().map(|row| row.iter().copied().collect()));
+                return Ok(motion);
+            }
+        }
+        let Some(poses) = poses(trajectory, "") else {
+            let place = ["x_m", "y_m", "z_m"].iter().chain(&QUATERNION_COLUMNS).copied().collect::<Vec<_>>().join(", ");
+            let (found, named, counted) = (trajectory.columns().join(", "), named.join(", "), counted.join(", "));
+            return Err(SimulationError::Trajectory(format!(
+                "its columns are [{found}], but must hold the joints [{named}] (or [{counted}]) or the tool's pose [{place}]"
+            )));
+        };
+        // Each pose is solved from the posture before, so that the arm does not jump.
+        let mut q = vec![0.0; arm.joints()];
+        let mut reach = Reach { position_error_m: 0.0, time_s: motion.times_s[0], orientation_error_rad: 0.0 };
+        for (sample, (pose, &time_s)) in poses.iter().zip(&motion.times_s).enumerate() {
+            let found = if sample == 0 { arm.reach(pose, &mut q) } else { arm.reach_from(pose, &mut q) };
+            if found.position_error_m > reach.position_error_m {
+                reach = Reach { position_error_m: found.position_error_m, time_s, ..reach };
+            }
+            reach.orientation_error_rad = reach.orientation_error_rad.max(found.orientation_error_rad);
+            motion.arm_rad.push(q.clone());
+        }
+        Ok(Self { reach: Some(reach), ..motion })
+    }
+}
+
+/// The poses in the columns `PREFIX_x_m` … `PREFIX_qw`, or without a prefix.
+fn poses(trajectory: &Trajectory, prefix: &str) -> Option<Vec<Isometry3<f64>>> {
+    let names = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"].map(|name| format!("{prefix}{name}"));
+    let values = trajectory.select(&names).ok()?;
+    let pose = |row: nalgebra::RowDVector<f64>| {
+        let turn = Quaternion::new(row[6], row[3], row[4], row[5]);
+        Isometry3::from_parts(Translation3::new(row[0], row[1], row[2]), UnitQuaternion::new_normalize(turn))
+    };
+    Some(values.row_iter().map(|row| pose(row.into_owned())).collect())
+}
+
+/// The poses of all objects, sample by sample.
+fn objects(setup: &Setup, trajectory: &Trajectory) -> Option<Vec<Vec<Isometry3<f64>>>> {
+    let of_object = |name: &str| poses(trajectory, &format!("object_{name}_")).or_else(|| poses(trajectory, &format!("{name}_")));
+    let each: Vec<Vec<Isometry3<f64>>> = setup.experiment.objects.iter().map(|object| of_object(&object.name)).collect::<Option<_>>()?;
+    Some((0..trajectory.samples()).map(|sample| each.iter().map(|poses| poses[sample]).collect()).collect())
+}

@@ -1,0 +1,207 @@
+//! Smallest distances and touches of the working arm (with what it holds) and everything it could hit, also between steps.
+//!
+//! Every pair of parts carries a distance that it is proven to have at least; motion uses it up, and only when it no longer proves that
+//! nothing new can have happened is the geometry asked again. So most pairs cost a subtraction per step.
+
+use nalgebra::Point3;
+use rapier3d_f64::prelude::{Pose, SharedShape};
+
+use super::convert;
+use super::gap::Gap;
+use super::parts::{Limb, Owner};
+use super::passage::{Moment, Passage, least_between, tolerance_m};
+
+/// The smallest distance so far between a part of the arm and an object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clearance {
+    /// The part of the arm, or what it holds.
+    pub a: String,
+    /// The object, or a part of the robot that does not belong to the arm.
+    pub b: String,
+    /// The distance; 0 when touching (m). Infinite before the first measurement.
+    pub min_distance_m: f64,
+    /// When (s).
+    pub time_s: f64,
+    /// Nearest point on `a` (m, world).
+    pub point_a: Point3<f64>,
+    /// Nearest point on `b` (m, world).
+    pub point_b: Point3<f64>,
+}
+
+/// The smallest distance to each thing that was not touched.
+#[must_use]
+pub fn nearest_of_each(clearances: &[Clearance]) -> Vec<&Clearance> {
+    let mut nearest: Vec<&Clearance> = Vec::new();
+    for clearance in clearances {
+        match nearest.iter_mut().find(|known| known.b == clearance.b) {
+            Some(known) if known.min_distance_m <= clearance.min_distance_m => {}
+            Some(known) => *known = clearance,
+            None => nearest.push(clearance),
+        }
+    }
+    nearest.retain(|clearance| clearance.min_distance_m > 0.0 && clearance.min_distance_m.is_finite());
+    nearest
+}
+
+/// A part with its shape.
+#[derive(Clone)]
+pub(super) struct Watched {
+    /// Its number among the parts.
+    pub part: usize,
+    /// Whose part it is.
+    pub owner: Owner,
+    /// What its distances are called after: the link or the object.
+    pub name: String,
+    /// Its shape.
+    pub shape: SharedShape,
+}
+
+/// A touch of two parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch {
+    /// The parts.
+    pub parts: (usize, usize),
+    pub time_s: f64,
+    pub gap: Gap,
+}
+
+/// How solids move from one moment to the next.
+pub(super) struct Motion<'a> {
+    pub start_s: f64,
+    pub end_s: f64,
+    /// The longest path of a point of each solid (m).
+    pub travel_m: &'a [f64],
+    /// `world_from_solid` at a fraction of the motion.
+    pub pose_at: &'a dyn Fn(usize, f64) -> Pose,
+    /// Whether touches that begin or end within the motion are timed within it. Otherwise a touch counts from the step at whose end it is, and
+    /// only parts that pass through each other between two steps are looked for.
+    pub timed_within: bool,
+}
+
+struct Pair {
+    a: usize,
+    b: usize,
+    /// Its place in the list of clearances.
+    entry: usize,
+    /// A distance that the pair has at least (m).
+    proven_m: f64,
+    /// The deepest so far, negative (m); 0 before the first touch.
+    deepest_m: f64,
+}
+
+/// Watches distances and touches.
+pub(super) struct ProximityBook {
+    /// One entry per part of the arm and thing that it could hit.
+    pub smallest: Vec<Clearance>,
+    /// The touches of the last motion.
+    pub touches: Vec<Touch>,
+    /// What is watched.
+    pub solids: Vec<Watched>,
+    pairs: Vec<Pair>,
+}
+
+impl ProximityBook {
+    /// Watches the working arm's solids, and movable ones while they are held, against all others that they could hit: `meets` says whether
+    /// two solids may touch at all.
+    pub(super) fn new(solids: Vec<Watched>, movable: &[bool], meets: impl Fn(usize, usize) -> bool) -> Self {
+        let mut book = Self { smallest: Vec::new(), touches: Vec::new(), solids, pairs: Vec::new() };
+        for a in 0..book.solids.len() {
+            for b in 0..book.solids.len() {
+                if watched(book.solids[a].owner, book.solids[b].owner, movable) && meets(a, b) {
+                    let entry = book.entry(a, b);
+                    book.pairs.push(Pair { a, b, entry, proven_m: f64::NEG_INFINITY, deepest_m: 0.0 });
+                }
+            }
+        }
+        book
+    }
+
+    fn entry(&mut self, a: usize, b: usize) -> usize {
+        let (a, b) = (&self.solids[a].name, &self.solids[b].name);
+        if let Some(place) = self.smallest.iter().position(|known| &known.a == a && &known.b == b) {
+            return place;
+        }
+        let (point_a, point_b) = (Point3::origin(), Point3::origin());
+        self.smallest.push(Clearance { a: a.clone(), b: b.clone(), min_distance_m: f64::INFINITY, time_s: 0.0, point_a, point_b });
+        self.smallest.len() - 1
+    }
+
+    /// Follows a motion that begins where the last one ended. `held` are the objects in the gripper.
+    pub(super) fn follow(&mut self, motion: &Motion, held: &[usize]) {
+        self.touches.clear();
+        let Self { smallest, touches, solids, pairs } = self;
+        for pair in pairs {
+            let before_m = pair.proven_m;
+            let travel_m = motion.travel_m[pair.a] + motion.travel_m[pair.b];
+            pair.proven_m -= travel_m;
+            if let Owner::Object(object) = solids[pair.a].owner
+                && !held.contains(&object)
+            {
+                continue;
+            }
+            let entry = &mut smallest[pair.entry];
+            if pair.proven_m > 0.0 && pair.proven_m >= entry.min_distance_m - tolerance_m(entry.min_distance_m) {
+                continue;
+            }
+            let gap_at = |fraction: f64| {
+                let (a, b) = (pair.a, pair.b);
+                let (at_a, at_b) = ((motion.pose_at)(a, fraction), (motion.pose_at)(b, fraction));
+                Gap::between(&at_a, &*solids[a].shape, &at_b, &*solids[b].shape)
+            };
+            let Some(end) = gap_at(1.0) else { continue };
+            pair.proven_m = end.distance_m;
+            let floor_m = if entry.min_distance_m > 0.0 { entry.min_distance_m } else { pair.deepest_m };
+            let mut passage = Passage { gap_at, travel_m, floor_m, least: None, touch: None };
+            let least_m = least_between(before_m, end.distance_m, travel_m);
+            // The exact start is only asked for when what is known of it leaves something to find.
+            let start = if least_m <= 0.0 || least_m < floor_m - tolerance_m(floor_m) { (passage.gap_at)(0.0) } else { None };
+            match start {
+                Some(start) if motion.timed_within || (start.distance_m > 0.0 && end.distance_m > 0.0) => passage.search(start, end),
+                _ => passage.arrive(end),
+            }
+            let parts = (solids[pair.a].part, solids[pair.b].part);
+            note_touches(&passage, motion, parts, touches);
+            if let Some(least) = passage.least {
+                pair.deepest_m = pair.deepest_m.min(least.gap.distance_m);
+                note_distance(&least, motion, entry);
+            }
+        }
+    }
+}
+
+impl Motion<'_> {
+    fn time_s(&self, fraction: f64) -> f64 {
+        self.start_s + fraction * (self.end_s - self.start_s)
+    }
+}
+
+/// Notes how the pair touched: first, last and deepest.
+fn note_touches(passage: &Passage<impl Fn(f64) -> Option<Gap>>, motion: &Motion, parts: (usize, usize), touches: &mut Vec<Touch>) {
+    let Some((first, last)) = passage.touch else { return };
+    let touch = |fraction: f64, gap: Gap| Touch { parts, time_s: motion.time_s(fraction), gap };
+    touches.extend((passage.gap_at)(first).map(|gap| touch(first, gap)));
+    if last > first {
+        touches.extend((passage.gap_at)(last).map(|gap| touch(last, gap)));
+    }
+    touches.extend(passage.least.map(|least| touch(least.fraction, least.gap)));
+}
+
+fn note_distance(least: &Moment, motion: &Motion, entry: &mut Clearance) {
+    let distance_m = least.gap.distance_m.max(0.0);
+    if distance_m < entry.min_distance_m {
+        entry.min_distance_m = distance_m;
+        entry.time_s = motion.time_s(least.fraction);
+        entry.point_a = convert::point_back(least.gap.point_a);
+        entry.point_b = convert::point_back(least.gap.point_b);
+    }
+}
+
+/// The working arm against everything that does not belong to it; what is held against all objects but itself.
+fn watched(a: Owner, b: Owner, movable: &[bool]) -> bool {
+    match (a, b) {
+        (Owner::Robot { limb: Limb::Working, .. }, Owner::Robot { limb, .. }) => limb != Limb::Working,
+        (Owner::Robot { limb: Limb::Working, .. }, Owner::Object(_)) => true,
+        (Owner::Object(a), Owner::Object(b)) => a != b && movable[a],
+        _ => false,
+    }
+}

@@ -1,0 +1,121 @@
+//! `cpdmp check` of movements that are not simulated: files of samples, and stored runs.
+
+use serde_json::Value;
+
+use super::program::Said;
+use super::{Folder, GOOD};
+use crate::physics::collisions_in_engine::{BESIDE, IN_THE_WAY, scenario};
+
+/// The good scenario with a wall of 0.5 mm across the way, 30 cm high.
+fn sheet() -> String {
+    let thin = GOOD.replace("post_height_m = 0.14", "post_height_m = 0.14\nthickness_m = 0.0005");
+    thin.replace("center_m = [1.2, 0.9]", "center_m = [0.6, 0.2]").replace("block_height_m = 0.2\n", "block_height_m = 0.3\n")
+}
+
+/// Two tool poses on either side of the wall, 40 cm in 0.2 s.
+const THROUGH: &str = "time_s,x_m,y_m,z_m,qx,qy,qz,qw\n0.0,0.6,0.4,0.12,1,0,0,0\n0.2,0.6,0.0,0.12,1,0,0,0\n";
+
+fn json(said: &Said) -> Value {
+    serde_json::from_str(&said.stdout).unwrap_or_else(|error| panic!("{error}: {}{}", said.stdout, said.stderr))
+}
+
+/// The entry of a list whose keys have these values.
+fn entry<'a>(list: &'a Value, wanted: &[(&str, &str)]) -> &'a Value {
+    let fits = |one: &&Value| wanted.iter().all(|(key, value)| one[*key].as_str() == Some(value));
+    list.as_array().expect("a list").iter().find(fits).unwrap_or_else(|| panic!("no {wanted:?} in {list:#}"))
+}
+
+/// Contract: a sheet of 0.5 mm crossed at 2 m/s between the only two samples is found, and told with pair, time, depth and point.
+#[test]
+fn a_sheet_that_is_crossed_between_two_samples_is_found() {
+    let folder = Folder::with(&[("a.toml", sheet().as_bytes()), ("through.csv", THROUGH.as_bytes())]);
+    let said = folder.call(&["check", "through.csv", "--scene", "a.toml", "--format", "json", "-q"]);
+    assert_eq!(said.code, Some(10), "{}{}", said.stdout, said.stderr);
+    let check = &json(&said)["checks"][0];
+    assert_eq!((check["kind"].as_str(), check["outcome"].as_str()), (Some("trajectory"), Some("criteria_not_met")));
+    let report = &check["report"];
+    assert_eq!(entry(&report["criteria"], &[("name", "contacts_allowed")])["passed"].as_bool(), Some(false));
+    let contact = entry(&report["collisions"], &[("a", "left_hand"), ("b", "block.base")]);
+    let number = |key: &str| contact[key].as_f64().expect("a number");
+    assert!(number("first_time_s") > 0.02 && number("last_time_s") < 0.18 && number("max_depth_m") > 1e-4, "{contact}");
+    let y = contact["deepest_point_m"][1].as_f64().expect("a number");
+    assert!((y - 0.2).abs() < 0.06, "within the hand's 4 cm of the wall: {contact}");
+    let said = folder.call(&["check", "through.csv", "--scene", "a.toml"]);
+    assert!(said.stdout.contains("left_hand - block.base"), "{}", said.stdout);
+}
+
+#[test]
+fn a_movement_needs_a_scene_columns_and_numbers() {
+    let holes = THROUGH.replace("0.6,0.0,0.12", "0.6,nan,0.12");
+    let files = [("a.toml", GOOD.as_bytes()), ("b.csv", b"time_s,u_m\n0,1\n1,2\n".as_slice()), ("c.csv", holes.as_bytes())];
+    let folder = Folder::with(&files);
+    let said = folder.call(&["check", "b.csv"]);
+    assert!(said.code == Some(2) && said.stderr.contains("--scene"), "{}", said.stderr);
+    let said = folder.call(&["check", "*.csv", "--scene", "a.toml"]);
+    assert_eq!(said.code, Some(3), "{}{}", said.stdout, said.stderr);
+    assert!(said.stdout.contains("left_s0_rad") && said.stdout.contains("q1_rad"), "{}", said.stdout);
+    assert!(said.stdout.contains("c.csv:3"), "the row is named: {}", said.stdout);
+    assert_eq!(folder.call(&["check", "none*.csv", "--scene", "a.toml"]).code, Some(5));
+}
+
+/// Contract: what the arm cannot do is a criterion like any other: poses out of reach, joints beyond their limits, joints too fast.
+#[test]
+fn what_the_arm_cannot_do_is_told() {
+    let far = THROUGH.replace("0.6,0.0", "2.6,0.0");
+    let joints = "time_s,left_s0_rad,left_s1_rad,left_e0_rad,left_e1_rad,left_w0_rad,left_w1_rad,left_w2_rad\n\
+                  0,-0.38,-1.05,-0.48,1.93,0.34,0.77,1.30\n0.1,-0.38,-1.05,-0.48,1.93,0.34,0.77,4.30\n";
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("far.csv", far.as_bytes()), ("joints.csv", joints.as_bytes())]);
+    let said = folder.call(&["check", "far.csv", "joints.csv", "--scene", "a.toml", "--format", "json", "-q"]);
+    assert_eq!(said.code, Some(10), "{}{}", said.stdout, said.stderr);
+    let checks = json(&said)["checks"].clone();
+    let value = |check: usize, name: &str| {
+        let criterion = entry(&checks[check]["report"]["criteria"], &[("name", name)]);
+        assert_eq!(criterion["as_expected"].as_bool(), Some(false), "{criterion}");
+        criterion["value"].as_f64().expect("a number")
+    };
+    assert!(value(0, "poses_reached") > 1.0);
+    assert!((value(1, "joint_limits") - (3.059 - 4.30)).abs() < 1e-3);
+    assert!((value(1, "joint_speeds") - 3.0 / 0.1 / 4.0).abs() < 0.1);
+}
+
+/// Contract: a stored run is judged from its log as it was judged when it ran, and against a scene that has changed since.
+#[test]
+fn a_stored_run_is_judged_again() {
+    let folder = Folder::with(&[("a.toml", scenario(BESIDE).as_bytes())]);
+    let run = json(&folder.call(&["run", "a.toml", "--format", "json", "-q"]));
+    assert_eq!(run["outcome"].as_str(), Some("passed"), "{run}");
+    let said = folder.call(&["check", "runs", "--format", "json", "-q"]);
+    assert_eq!(said.code, Some(0), "{}{}", said.stdout, said.stderr);
+    let again = json(&said)["checks"][0].clone();
+    assert_eq!(again["kind"].as_str(), Some("run"));
+    for one in run["clearance"].as_array().expect("a list").iter().filter(|one| one["b"].as_str() == Some("block")) {
+        let pair = [("a", one["a"].as_str().expect("a name")), ("b", "block")];
+        let (was, is) = (&one["min_distance_m"], &entry(&again["report"]["clearance"], &pair)["min_distance_m"]);
+        let (was, is) = (was.as_f64().expect("m"), is.as_f64().expect("m"));
+        assert!((was - is).abs() < if was < 0.05 { 1e-4 } else { 0.03 * was }, "{pair:?}: {was} {is}");
+    }
+    let moved = format!("object.block.center_m=[{}, {}]", IN_THE_WAY[0], IN_THE_WAY[1]);
+    let said = folder.call(&["check", "runs/passage-0", "--set", &moved, "--format", "json", "-q"]);
+    assert_eq!(said.code, Some(10), "{}{}", said.stdout, said.stderr);
+    let report = json(&said)["checks"][0]["report"].clone();
+    let refused = |one: &&Value| one["allowed"].as_bool() == Some(false);
+    let contact = report["collisions"].as_array().expect("a list").iter().find(refused).expect("a contact");
+    assert!(contact["b"].as_str().is_some_and(|part| part.starts_with("block.")), "{contact}");
+}
+
+/// Contract: an allowed contact is no collision, and the report says who allows it and where.
+#[test]
+fn the_scene_says_which_contacts_it_allows_and_where() {
+    let allowed = "\n[[allowed_contact]]\nname = \"tearing\"\na = \"left_hand\"\nb = \"block\"\n";
+    let text = sheet() + allowed;
+    let folder = Folder::with(&[("a.toml", text.as_bytes()), ("through.csv", THROUGH.as_bytes())]);
+    let said = folder.call(&["check", "through.csv", "--scene", "a.toml", "--format", "json", "-q"]);
+    let report = json(&said)["checks"][0]["report"].clone();
+    let contact = entry(&report["collisions"], &[("a", "left_hand"), ("b", "block.base")]);
+    assert_eq!((contact["allowed"].as_bool(), contact["reason_key"].as_str()), (Some(true), Some("allowed_contact.tearing")));
+    let line = text[..text.find("\"tearing\"").expect("there")].matches('\n').count() as i64 + 1;
+    assert_eq!((contact["reason_place"]["file"].as_str(), contact["reason_place"]["line"].as_i64()), (Some("a.toml"), Some(line)));
+    let said = folder.call(&["check", "through.csv", "--scene", "a.toml", "-v"]);
+    let told = format!("the scenario allows it (allowed_contact.tearing, a.toml:{line}:8)");
+    assert!(said.stdout.contains(&told), "{}", said.stdout);
+}
