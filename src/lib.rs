@@ -28,7 +28,8 @@
 //!
 //! | row | rooms | |
 //! |---|---|---|
-//! | 8 | [`cli`] | the terminal |
+//! | 9 | [`cli`] | the terminal |
+//! | 8 | [`batch`] | many runs |
 //! | 7 | [`scenario`], [`report`] | text in, text out |
 //! | 6 | [`check`], [`recording`], [`figure`] | readers of what a run left behind |
 //! | 5 | [`simulation`] | teach, replay, execute: the only room that knows both world and control |
@@ -47,6 +48,7 @@
 //! per-state centred regression instead of a plain inverse; no `W` on the phase row; net forcing gated to zero at the end, so that the goal is
 //! reached; compliance by the covariance *between* demonstrations; the coupling as a compliance in m/N, saturated, and faded over `1/omega`.
 
+pub mod batch;
 pub mod check;
 pub mod cli;
 pub mod control;

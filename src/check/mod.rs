@@ -7,6 +7,8 @@ mod judge_motion;
 mod judge_objects;
 mod judge_planar;
 mod place;
+mod planar_trace;
+mod replay_difference;
 mod windows;
 
 pub use allowed_contact::{AllowedContact, allow};
@@ -15,4 +17,6 @@ pub use judge::judge;
 pub use judge_motion::judge_motion;
 pub use judge_planar::judge_planar;
 pub use place::Place;
+pub use planar_trace::planar_traces;
+pub use replay_difference::{DifferenceKind, ReplayDifference, exact_difference, first_difference};
 pub use windows::{Window, compliance_windows, human_windows};

@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::learning_args::{Generate, Inspect, Learn};
+use super::sweep_args::{MergeArguments, SweepArguments};
 
 /// A physics testbed for Compliant Parametric Dynamic Movement Primitives.
 ///
@@ -37,6 +38,12 @@ pub(super) enum Command {
     Inspect(Inspect),
     /// Bring files of an older version of the program to this one's
     Migrate(Files),
+    /// Run a scenario again and again with other values of its keys: one table, one row per run
+    Sweep(SweepArguments),
+    /// Run a run again and compare its state hashes; with --set, say where another run parts from it
+    Replay(RunFolder),
+    /// Join the tables of a sweep's shards into one (--out)
+    Merge(MergeArguments),
     /// Draw the figures of a run again, from what its folder holds
     Figures(RunFolder),
     /// List the scenarios of a folder, with what each shows
@@ -161,7 +168,7 @@ pub(super) struct Global {
     #[arg(long, global = true, env = "CPDMP_ASSET_ROOT", value_name = "DIR")]
     pub asset_root: Vec<PathBuf>,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the
-    /// samples to this file; figures to this folder
+    /// samples to this file; figures to this folder; the sweep to this folder instead of sweeps/<scenario>; the joined table to this file
     #[arg(long, global = true, env = "CPDMP_OUT", value_name = "PATH")]
     pub out: Option<PathBuf>,
     /// Use this many threads; the result does not depend on it

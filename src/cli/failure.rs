@@ -75,6 +75,11 @@ impl Failure {
         Self { faults, ..Self::new(Outcome::InvalidInput, [message]) }
     }
 
+    /// The same with faults of settings.
+    pub fn because(self, diagnostics: Vec<Diagnostic>) -> Self {
+        Self { diagnostics, ..self }
+    }
+
     /// Tells it, and returns how the command ends.
     pub fn tell(&self, terminal: &Terminal) -> Outcome {
         if terminal.format == Format::Json {

@@ -1,6 +1,6 @@
 //! The files of a run: report, manifest and resolved scenario always, what was learned and recorded if the run came that far.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::judged_run::{JudgedRun, Left};
@@ -8,7 +8,10 @@ use super::{figure_files, planar_files};
 use crate::recording;
 use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file, write_file};
 use crate::scenario::{RecordingPlan, Scenario, Work};
-use crate::simulation::{DemonstrationSource, Experiment, RunOutcome};
+use crate::simulation::{Experiment, RunOutcome};
+
+/// The hashes that a repetition is held against.
+pub(super) const STATE_LOG: &str = "state_hashes.parquet";
 
 /// Writes everything into the folder. A recording that cannot be written is told in the report, which is written all the same.
 pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<(), OutputError> {
@@ -48,6 +51,9 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
         Ok(figures) => failures.extend(figure_files::draw(&figures, &folder.join("figures"))),
         Err(error) => failures.push(format!("figures: {error}")),
     }
+    if plan.hash_every_steps > 0 {
+        failures.extend(recording::write_state_log(&folder.join(STATE_LOG), &left.traces).err().map(|error| error.to_string()));
+    }
     #[cfg(feature = "rerun")]
     if plan.rrd {
         let written = recording::write_recording(&folder.join("recording.rrd"), experiment, left);
@@ -61,23 +67,7 @@ fn manifest(run: &JudgedRun, scenario: &Scenario, started: SystemTime) -> Manife
         command: std::env::args().collect(),
         directory: std::env::current_dir().ok(),
         started_unix_s: started.duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs()),
-        inputs: inputs(scenario).iter().map(|path| hash_file(path)).collect(),
+        inputs: scenario.files.iter().chain(&scenario.work.inputs()).map(|path| hash_file(path)).collect(),
         ..Manifest::new(&run.report)
     }
-}
-
-/// The files that decide a run: the scenario with what it extends, the robot, the dataset.
-fn inputs(scenario: &Scenario) -> Vec<PathBuf> {
-    let mut files = scenario.files.clone();
-    let Work::Arm(experiment) = &scenario.work else { return files };
-    files.extend(experiment.robot.urdf.clone());
-    if let DemonstrationSource::Dataset(folder) = &experiment.demonstrations {
-        let mut of_dataset: Vec<PathBuf> = match std::fs::read_dir(folder) {
-            Ok(entries) => entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect(),
-            Err(_) => vec![folder.clone()],
-        };
-        of_dataset.sort();
-        files.extend(of_dataset);
-    }
-    files
 }

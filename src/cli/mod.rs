@@ -22,12 +22,18 @@ mod learning_args;
 mod list;
 mod load;
 mod man;
+mod merge;
 mod migrate;
 mod planar_files;
 mod progress;
+mod replay;
 mod run;
 mod schema;
 mod select;
+mod sweep;
+mod sweep_args;
+mod sweep_progress;
+mod sweep_text;
 mod terminal;
 mod validate;
 
@@ -68,6 +74,9 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
         Command::Migrate(arguments) => migrate::migrate(&arguments.files, arguments.dry_run, &terminal),
+        Command::Sweep(arguments) => sweep::sweep(arguments, &cli.global, &terminal),
+        Command::Replay(arguments) => replay::replay(&arguments.folder, &cli.global, &terminal),
+        Command::Merge(arguments) => merge::merge(arguments, &cli.global, &terminal),
         Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),
         Command::Explain(arguments) => explain::explain(arguments.code.as_deref(), &cli.global, &terminal),

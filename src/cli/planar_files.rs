@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use super::figure_files::draw;
+use super::files::STATE_LOG;
+use crate::check::planar_traces;
 use crate::figure::{Figure, planar_forcing, planar_paths, transitions};
 use crate::planar::{Guidance, LearnedSkill, Method, Movement, PlanarOutcome, Transitions};
 #[cfg(feature = "rerun")]
 use crate::recording::write_planar_recording;
-use crate::recording::{LoggedPath, write_path_log};
+use crate::recording::{LoggedPath, write_path_log, write_state_log};
 use crate::report::write_file;
 use crate::scenario::{PlanarRun, RecordingPlan};
 
@@ -22,6 +24,10 @@ pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, 
     failures.extend(skills(left, folder));
     if plan.steps {
         failures.extend(write_path_log(&folder.join("paths.parquet"), &paths(left)).err().map(|error| error.to_string()));
+    }
+    if plan.hash_every_steps > 0 {
+        let traces = planar_traces(left, plan.hash_every_steps);
+        failures.extend(write_state_log(&folder.join(STATE_LOG), &traces).err().map(|error| error.to_string()));
     }
     #[cfg(feature = "rerun")]
     if plan.rrd {

@@ -72,7 +72,7 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
 }
 
 /// Loads the robot and the dataset that the scenario names and looks whether the arm can go its way; what is odd about the robot.
-fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outcome, String)> {
+pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outcome, String)> {
     match &scenario.work {
         Work::Planar(planar) => planar.check().map(|()| Vec::new()).map_err(|error| (of_learning(&error), error.to_string())),
         Work::Arm(experiment) => {

@@ -7,20 +7,24 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A lock that is held. Dropping it lets go and removes the file.
 #[derive(Debug)]
-pub(super) struct Lock {
+pub struct Lock {
     path: PathBuf,
     _file: File,
 }
 
 /// Why a lock was not had.
-pub(super) enum LockError {
+pub enum LockError {
     /// Another process has it; what that process wrote about itself.
     Held(String),
+    /// The file system refused.
     Io(std::io::Error),
 }
 
 /// Takes the lock at `path`, or says who has it.
-pub(super) fn lock(path: &Path) -> Result<Lock, LockError> {
+///
+/// # Errors
+/// When another process has it, or the file cannot be made.
+pub fn lock(path: &Path) -> Result<Lock, LockError> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let token = format!("process {}, lock {}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
     loop {

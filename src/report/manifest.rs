@@ -62,6 +62,7 @@ pub struct Host {
 
 impl Host {
     /// This machine.
+    #[must_use]
     pub fn this() -> Self {
         let cores = std::thread::available_parallelism().ok().map(usize::from);
         Self { os: std::env::consts::OS, arch: std::env::consts::ARCH, cores }

@@ -38,6 +38,7 @@ pub use error_section::{ErrorRow, ValidationRow, ValidationSection};
 pub use github::github;
 pub use junit::junit;
 pub use learn_report::LearnReport;
+pub use lock::{Lock, LockError, lock};
 pub use manifest::{FileHash, Host, Manifest, hash_file};
 pub use outcome::Outcome;
 pub use output_file::{Replaceable, prepare_file, replace_file, rewrite_file};
@@ -50,4 +51,5 @@ pub use run_report::{
 pub use run_section::{CriterionLine, FileLine, RunSection};
 pub use schemas::{check_schema, learn_schema, manifest_schema, report_schema};
 pub use skill_section::{FitSection, ParameterRange, SkillSection, StateRow};
+pub use table::{figure, table};
 pub use text::text;

@@ -16,6 +16,8 @@ pub enum Outcome {
     Diverged,
     /// The run took longer than it may.
     TimeLimit,
+    /// A repetition is not the run that it repeats.
+    ReplayDiffers,
     /// No skill could be learned.
     LearningFailed,
     /// The arguments select no scenario.
@@ -34,11 +36,12 @@ pub enum Outcome {
 
 impl Outcome {
     /// Every outcome, from the mildest to the worst: a command that meets several ends with the worst.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Passed,
         Self::CriteriaNotMet,
         Self::Diverged,
         Self::TimeLimit,
+        Self::ReplayDiffers,
         Self::LearningFailed,
         Self::NothingSelected,
         Self::OutputBusy,
@@ -60,6 +63,7 @@ impl Outcome {
             Self::CriteriaNotMet => 10,
             Self::Diverged => 11,
             Self::TimeLimit => 12,
+            Self::ReplayDiffers => 13,
             Self::OutputFailed => 20,
             Self::OutputBusy => 21,
         }
@@ -72,6 +76,7 @@ impl Outcome {
             Self::CriteriaNotMet => "criteria_not_met",
             Self::Diverged => "diverged",
             Self::TimeLimit => "time_limit",
+            Self::ReplayDiffers => "replay_differs",
             Self::LearningFailed => "learning_failed",
             Self::NothingSelected => "nothing_selected",
             Self::OutputBusy => "output_busy",
@@ -94,6 +99,9 @@ impl Outcome {
                 "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help"
             }
             Self::TimeLimit => "a run took longer than --timeout allows: the message says how far it came",
+            Self::ReplayDiffers => {
+                "the repetition of a run is not the same to the last bit: the message says from where on, and what explains it"
+            }
             Self::LearningFailed => "no skill could be learned from the demonstrations: the message says what they lack",
             Self::NothingSelected => "the arguments name no scenario: check the folder or pattern",
             Self::OutputBusy => "another run is writing to the same folder: wait, or choose another --out",

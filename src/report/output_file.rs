@@ -13,6 +13,8 @@ pub enum Replaceable {
     Skill,
     /// Samples: its first line names a column `time_s`, or it is a Parquet file.
     Samples,
+    /// The table of a sweep: a Parquet file.
+    Table,
     /// A JUnit report.
     Junit,
 }
@@ -22,6 +24,7 @@ impl Replaceable {
         match self {
             Self::Skill => "a skill",
             Self::Samples => "a file of samples",
+            Self::Table => "a Parquet file",
             Self::Junit => "a JUnit report",
         }
     }
@@ -92,6 +95,7 @@ fn is_replaceable(path: &Path, replaceable: Replaceable) -> bool {
     }
     let text = String::from_utf8_lossy(&bytes);
     match replaceable {
+        Replaceable::Table => bytes.starts_with(b"PAR1"),
         Replaceable::Skill => text.trim_start().starts_with('{') && text.contains("\"cpdmp-skill\""),
         Replaceable::Junit => text.contains("<testsuites"),
         Replaceable::Samples => {

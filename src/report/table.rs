@@ -1,7 +1,8 @@
 //! Tables for people.
 
 /// Rows as lines, every column as wide as its widest cell: the first to the left, the others to the right. Two blanks in front.
-pub(super) fn table(rows: &[Vec<String>]) -> Vec<String> {
+#[must_use]
+pub fn table(rows: &[Vec<String>]) -> Vec<String> {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |j: usize| rows.iter().filter_map(|row| row.get(j)).map(|cell| cell.chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..columns).map(width).collect();
@@ -14,7 +15,8 @@ pub(super) fn table(rows: &[Vec<String>]) -> Vec<String> {
 }
 
 /// A number with three digits that count.
-pub(super) fn figure(number: f64) -> String {
+#[must_use]
+pub fn figure(number: f64) -> String {
     let magnitude = number.abs();
     if number == 0.0 {
         "0".to_owned()

@@ -7,7 +7,7 @@ use crate::control::{Feedback, ImpedanceSettings};
 use crate::learning::PhaseStopping;
 use crate::learning::dmp::Integrator;
 use crate::robot::EffortModel;
-use crate::simulation::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings};
+use crate::simulation::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings, TraceSettings};
 use crate::world::{HumanSettings, Parameters, PhysicsSettings, SensorSettings};
 
 /// The experiment that a scenario describes.
@@ -40,6 +40,7 @@ pub(super) fn experiment(scenario: &Node) -> Experiment {
         learning: build_learning::learning(&learning),
         execution: execution(&scenario.section("execution"), &scenario.section("coupling"), &human.section("help")),
         log_rate_hz: simulation.number("log_rate_hz"),
+        trace: TraceSettings { every_steps: scenario.section("recording").count("hash_every_steps"), detail: None },
     }
 }
 
@@ -116,5 +117,10 @@ fn execution(table: &Node, coupling: &Node, help: &Node) -> ExecutionPlan {
 /// What is written to the run folder.
 pub(super) fn recording(scenario: &Node) -> RecordingPlan {
     let table = scenario.section("recording");
-    RecordingPlan { rrd: table.flag("rrd"), steps: table.flag("steps"), demonstrations: table.flag("demonstrations") }
+    RecordingPlan {
+        rrd: table.flag("rrd"),
+        steps: table.flag("steps"),
+        demonstrations: table.flag("demonstrations"),
+        hash_every_steps: table.count("hash_every_steps"),
+    }
 }

@@ -103,6 +103,12 @@ impl Writer {
             Kind::List(shape) => json!({ "type": "array", "items": self.table(shape) }),
             Kind::Numbers => json!({ "type": "object", "additionalProperties": { "type": "number" } }),
             Kind::Grid => json!({ "type": "object", "additionalProperties": { "type": "array", "items": { "type": "number" } } }),
+            Kind::Values => json!({ "type": "array" }),
+            // A dotted key without quotes is a table in a table.
+            Kind::Ranges => {
+                let pair = list(number(&Measure::ANY), Length::Exactly(2));
+                json!({ "type": "object", "additionalProperties": { "anyOf": [pair, { "type": "object" }] } })
+            }
         }
     }
 }

@@ -59,6 +59,10 @@ pub(super) enum Kind {
     Numbers,
     /// A table of parameter names, each with a list of numbers.
     Grid,
+    /// A list of values of another key.
+    Values,
+    /// A table of keys, each with `[min, max]`.
+    Ranges,
 }
 
 /// How many entries a list has.

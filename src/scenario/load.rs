@@ -54,6 +54,8 @@ pub struct RecordingPlan {
     pub steps: bool,
     /// The dataset that was learned from.
     pub demonstrations: bool,
+    /// Steps between two hashes of the states; 0 keeps none.
+    pub hash_every_steps: u64,
 }
 
 /// What the user says besides the file.
@@ -74,20 +76,28 @@ impl Scenario {
     pub fn load(path: &Path, options: &LoadOptions) -> Result<Self, InvalidScenario> {
         let mut sources = Sources::default();
         let mut faults = Vec::new();
-        let scenario = read(path, options, &mut sources, &mut faults);
-        let diagnostics = diagnose(faults, &sources);
-        match scenario {
-            Some(filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => Ok(Self {
-                work: work(&filled),
-                criteria: build_criteria::criteria(&filled),
-                allowed_contacts: build_criteria::allowed_contacts(&filled),
-                places: Places::of(&filled, &sources),
-                recording: build::recording(&filled),
-                description: filled.text("description").to_owned(),
-                resolved: resolved::write(&check_planar::without_arm(filled)),
-                files: sources.files(),
-                warnings: diagnostics,
-            }),
+        let filled = layered(path, options, &mut sources, &mut faults).map(|(tree, roots)| fill(tree, &sources, &roots, &mut faults));
+        Self::of(filled, faults, &sources)
+    }
+
+    /// The scenario of a filled tree, unless there is none or something is wrong with it. What it varies in sweeps is left aside.
+    pub(super) fn of(filled: Option<Node>, faults: Vec<Fault>, sources: &Sources) -> Result<Self, InvalidScenario> {
+        let diagnostics = diagnose(faults, sources);
+        match filled {
+            Some(mut filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => {
+                filled.take("sweep");
+                Ok(Self {
+                    work: work(&filled),
+                    criteria: build_criteria::criteria(&filled),
+                    allowed_contacts: build_criteria::allowed_contacts(&filled),
+                    places: Places::of(&filled, sources),
+                    recording: build::recording(&filled),
+                    description: filled.text("description").to_owned(),
+                    resolved: resolved::write(&check_planar::without_arm(filled)),
+                    files: sources.files(),
+                    warnings: diagnostics,
+                })
+            }
             _ => Err(InvalidScenario(diagnostics)),
         }
     }
@@ -100,8 +110,8 @@ fn work(filled: &Node) -> Work {
     }
 }
 
-/// The filled tree, unless its text or its version leave nothing to look at.
-fn read(path: &Path, options: &LoadOptions, sources: &mut Sources, faults: &mut Vec<Fault>) -> Option<Node> {
+/// The tree of all layers, and the folders whose files it may use, unless its text or its version leave nothing to look at.
+pub(super) fn layered(path: &Path, options: &LoadOptions, sources: &mut Sources, faults: &mut Vec<Fault>) -> Option<(Node, Roots)> {
     let directory = path.parent().unwrap_or(Path::new(""));
     let roots = Roots::new(directory, &options.asset_roots);
     let mut tree = layer::load(path, &roots, sources, faults)?;
@@ -123,10 +133,15 @@ fn read(path: &Path, options: &LoadOptions, sources: &mut Sources, faults: &mut 
         *faults = vec![fault];
         return None;
     }
+    Some((tree, roots))
+}
+
+/// The tree with every default filled in, held against the table of keys and checked as a whole.
+pub(super) fn fill(mut tree: Node, sources: &Sources, roots: &Roots, faults: &mut Vec<Fault>) -> Node {
     only_latest(&mut tree, ["demonstrations", "teaching"], sources);
-    let filled = Conform { sources, roots: &roots, faults }.table(tree, &SCENARIO, "");
+    let filled = Conform { sources, roots, faults }.table(tree, &SCENARIO, "");
     faults.extend(checks::check(&filled));
-    Some(filled)
+    filled
 }
 
 /// Of two keys that exclude each other, the one that was typed in a layer above the other's stays.

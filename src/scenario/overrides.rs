@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::fault::{Code, Fault};
 use super::layer::merge;
 use super::parse;
-use super::source::{Origin, Source, SourceId, Sources};
+use super::source::{COMMAND_LINE, Origin, Source, SourceId, Sources};
 use super::suggest::{did_you_mean, name_list};
 use super::tree::{Entry, Node, Value};
 
@@ -30,8 +30,15 @@ pub(super) fn flag(
     faults.extend(place(tree, &steps, Node::new(value, origin)).err());
 }
 
-fn of_command_line(name: &str, typed: &str) -> Source {
-    Source { name: name.to_owned(), directory: PathBuf::new(), text: typed.into(), rank: 1 }
+/// Puts `value` where the dotted `key` leads; faults of the way are told at `origin`.
+pub(super) fn put(tree: &mut Node, key: &str, origin: Origin, value: Node) -> Result<(), Fault> {
+    let steps: Vec<Step<'_>> = key.split('.').map(|name| Step { name: name.trim(), origin }).collect();
+    place(tree, &steps, value)
+}
+
+/// A text of the command line, typed after the flag `name`.
+pub(super) fn of_command_line(name: &str, typed: &str) -> Source {
+    Source { name: name.to_owned(), directory: PathBuf::new(), text: typed.into(), rank: COMMAND_LINE }
 }
 
 /// One step of a dotted path.
@@ -64,8 +71,8 @@ fn read<'a>(typed: &'a str, source: SourceId, faults: &mut Vec<Fault>) -> Result
     Ok((path, value(text, source, key.len() + 1, faults)?))
 }
 
-/// The value: TOML, or a bare word, which is text.
-fn value(text: &str, source: SourceId, offset: usize, faults: &mut Vec<Fault>) -> Result<Node, Fault> {
+/// The value: TOML, or a bare word, which is text. It starts `offset` bytes into its source.
+pub(super) fn value(text: &str, source: SourceId, offset: usize, faults: &mut Vec<Fault>) -> Result<Node, Fault> {
     let lead = text.len() - text.trim_start().len();
     let word = text.trim();
     let origin = Origin { source, start: offset + lead, end: offset + lead + word.len() };

@@ -47,11 +47,36 @@ impl Conform<'_> {
             }
             (Kind::Numbers, Value::Table(entries)) => Value::Table(entries.iter().map(|entry| self.free_number(entry, path)).collect()),
             (Kind::Grid, Value::Table(entries)) => Value::Table(entries.iter().map(|entry| self.free_numbers(entry, path)).collect()),
+            (Kind::Values, Value::List(_)) => typed.value,
+            (Kind::Ranges, Value::Table(entries)) => Value::Table(self.ranges(entries, "", path)),
             _ => {
                 self.wrong_type(path, &typed, kind.describe());
                 Value::Missing
             }
         }
+    }
+
+    /// Ranges under dotted keys; a dotted key without quotes is a table in a table, and means the same.
+    fn ranges(&mut self, entries: &[Entry], above: &str, path: &str) -> Vec<Entry> {
+        let mut flat = Vec::new();
+        for entry in entries {
+            let key = if above.is_empty() { entry.key.clone() } else { format!("{above}.{}", entry.key) };
+            if let Value::Table(inner) = &entry.node.value {
+                flat.extend(self.ranges(inner, &key, path));
+                continue;
+            }
+            let path = format!("{path}.{key}");
+            let range = self.window(&Measure::ANY, &entry.node, &path);
+            if let [min, max] = range.as_numbers()[..]
+                && min > max
+            {
+                let fault =
+                    Fault::at(Code::Order, entry.node.origin, format!("`{path}` begins at {} and ends at {}", plain(min), plain(max)));
+                self.faults.push(fault.expected("[min, max]"));
+            }
+            flat.push(Entry { key, origin: entry.origin, node: range });
+        }
+        flat
     }
 
     fn number(&mut self, kind: &Kind, measure: &Measure, typed: &Node, path: &str) -> Value {

@@ -89,7 +89,8 @@ fn path_literal(node: &Node) -> String {
     }
 }
 
-fn literal(node: &Node) -> String {
+/// A value as TOML.
+pub(super) fn literal(node: &Node) -> String {
     match &node.value {
         Value::Flag(flag) => flag.to_string(),
         Value::Integer(integer) => integer.to_string(),

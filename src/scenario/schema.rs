@@ -8,6 +8,7 @@ use super::key::Length::{AtLeast, Exactly};
 use super::key::To::{MovableObject, Object, ObjectOfKind, Parameter};
 use super::key::{Key, PathTo, Preset, Shape, Variant};
 use super::measure::{above, within};
+use super::schema_sweep::SWEEP;
 
 /// The version of the language that this program reads and writes.
 pub(super) const SCHEMA_VERSION: i64 = 1;
@@ -33,6 +34,7 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
     Key::new("recording", Section(RECORDING), "what is written to the run folder").or_empty(),
     Key::new("allowed_contact", List(ALLOWED_CONTACT), "contacts that are no collisions").or_empty(),
     Key::new("criterion", List(CRITERION), "what the run must show").or_empty(),
+    Key::new("sweep", List(SWEEP), "what `cpdmp sweep` varies from run to run; a single run leaves it aside").or_empty(),
 ]);
 
 /// A file with nothing but the `[learning]` table.
@@ -441,6 +443,8 @@ const RECORDING: Shape = Shape::plain(&[
     Key::new("rrd", Flag, "recording.rrd, for the rerun viewer").or(Preset::Flag(true)),
     Key::new("steps", Flag, "steps.parquet, one row per logged step; paths.parquet of a planar experiment").or(Preset::Flag(true)),
     Key::new("demonstrations", Flag, "demonstrations/, the dataset that was learned from").or(Preset::Flag(true)),
+    Key::new("hash_every_steps", Count(0, 1_000_000), "state_hashes.parquet, for `cpdmp replay`: steps between two hashes; 0 for none")
+        .or(Preset::Count(100)),
 ]);
 
 /// What makes movements in planar experiments.

@@ -10,6 +10,12 @@ use super::fault::{Code, Fault};
 /// Largest scenario file that is read (bytes): a thousand times the size of a long one.
 pub(super) const MAX_BYTES: u64 = 1 << 20;
 
+/// Rank of what is typed on the command line.
+pub(super) const COMMAND_LINE: i32 = 2;
+
+/// Rank of the values that a `[[sweep]]` of a file puts over the file's own.
+const SWEPT: i32 = 1;
+
 /// The number of a text in [`Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct SourceId(usize);
@@ -34,7 +40,7 @@ pub(super) struct Source {
     pub directory: PathBuf,
     /// The text, without a byte order mark.
     pub text: Arc<str>,
-    /// Later layers win: 0 for the scenario, -1, -2, … for what it extends, 1 for overrides.
+    /// Later layers win: 0 for the scenario, -1, -2, … for what it extends, 1 for what its `[[sweep]]` varies, 2 for the command line.
     pub rank: i32,
 }
 
@@ -54,6 +60,20 @@ impl Sources {
         &self.0[id.0]
     }
 
+    /// The same place, in the layer of what a sweep varies: above all files, below the command line.
+    pub fn swept(&mut self, origin: Origin) -> Origin {
+        let typed = self.get(origin.source);
+        if typed.rank >= SWEPT {
+            return origin;
+        }
+        let same = |source: &Source| source.rank == SWEPT && source.name == typed.name && source.directory == typed.directory;
+        let source = match self.0.iter().position(same) {
+            Some(index) => SourceId(index),
+            None => self.add(Source { rank: SWEPT, ..typed.clone() }),
+        };
+        Origin { source, ..origin }
+    }
+
     /// The layer in which something was typed.
     pub fn rank(&self, origin: Origin) -> i32 {
         self.get(origin.source).rank
@@ -66,7 +86,7 @@ impl Sources {
 
     /// Whether something was typed on the command line.
     pub fn is_override(&self, origin: Origin) -> bool {
-        self.rank(origin) > 0
+        self.rank(origin) >= COMMAND_LINE
     }
 }
 

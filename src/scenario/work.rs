@@ -1,11 +1,13 @@
 //! What a scenario runs: an arm in a simulated world, or a planar experiment.
 
+use std::path::PathBuf;
+
 use crate::demonstration::Dataset;
 use crate::learning::LearningError;
 use crate::planar::{
     Guidance, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
 };
-use crate::simulation::Experiment;
+use crate::simulation::{DemonstrationSource, Experiment};
 
 /// What a scenario runs.
 #[derive(Clone, Debug)]
@@ -53,6 +55,22 @@ impl Work {
             Self::Arm(experiment) => experiment.seed,
             Self::Planar(run) => run.seed,
         }
+    }
+
+    /// The files besides the scenario's own that decide a run: the robot, the dataset.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let Self::Arm(experiment) = self else { return Vec::new() };
+        let mut files: Vec<PathBuf> = experiment.robot.urdf.iter().cloned().collect();
+        if let DemonstrationSource::Dataset(folder) = &experiment.demonstrations {
+            let mut of_dataset: Vec<PathBuf> = match std::fs::read_dir(folder) {
+                Ok(entries) => entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect(),
+                Err(_) => vec![folder.clone()],
+            };
+            of_dataset.sort();
+            files.extend(of_dataset);
+        }
+        files
     }
 }
 

@@ -8,7 +8,7 @@ use super::step_loop::{Phase, Published, StepLoop};
 use super::{FinalObject, Progress, SimulationError, StepRecord};
 use crate::control::{Controller, SkillController};
 use crate::learning::{Skill, SkillExecution};
-use crate::world::{Clearance, ContactEpisode, World};
+use crate::world::{Clearance, ContactEpisode, StateTrace, World};
 
 /// What an execution left behind.
 pub(super) struct Executed {
@@ -19,6 +19,7 @@ pub(super) struct Executed {
     pub clearances: Vec<Clearance>,
     pub final_objects: Vec<FinalObject>,
     pub state_hash: u64,
+    pub trace: StateTrace,
     pub steps: u64,
 }
 
@@ -58,6 +59,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
         step_s,
         phase: Phase { name: "execute", progress },
     };
+    run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("execute", 0), steps);
     let steps = run.run_while(
         steps,
         |_, _| {},
@@ -78,6 +80,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
         clearances: world.clearances().to_vec(),
         final_objects: final_objects(&world, &names),
         state_hash: world.state_hash(),
+        trace: world.take_trace(),
         steps,
     })
 }

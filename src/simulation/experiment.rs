@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::TraceSettings;
 use crate::control::{Feedback, ImpedanceSettings};
 use crate::learning::cpdmp::CouplingSettings;
 use crate::learning::dmp::Integrator;
@@ -40,6 +41,8 @@ pub struct Experiment {
     /// Samples per second in the step log and the recording (Hz), from which criteria about moments are answered. Contacts, clearances and the
     /// person's peak force are taken at every engine step regardless.
     pub log_rate_hz: f64,
+    /// What is kept of the states, so that a repetition can be held against the run.
+    pub trace: TraceSettings,
 }
 
 /// In which coordinates a motion is learned and executed.

@@ -19,6 +19,7 @@ mod space;
 mod step_loop;
 mod step_record;
 mod teaching;
+mod trace;
 
 pub use arm_motion::{ArmMotion, Reach};
 pub use error::SimulationError;
@@ -29,3 +30,4 @@ pub use progress::{Progress, Silent};
 pub use run::{History, demonstrate, perform, run};
 pub use setup::Setup;
 pub use step_record::{StepRecord, skill_duration_s};
+pub use trace::{TraceDetail, TraceSettings, WorldTrace};

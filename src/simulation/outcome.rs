@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::StepRecord;
+use super::{StepRecord, WorldTrace};
 use crate::demonstration::{Dataset, Trajectory};
 use crate::learning::{LearningReport, Skill};
 use crate::robot::{Finding, RobotModel};
@@ -37,6 +37,8 @@ pub struct RunOutcome {
     pub phases: Vec<PhaseSummary>,
     /// Hash over the bits of every body's state at every engine step of every phase.
     pub state_hash: u64,
+    /// What was kept of the states, world by world, in the order of the phases.
+    pub traces: Vec<WorldTrace>,
     /// The setting's objects at the end of the run.
     pub final_objects: Vec<FinalObject>,
 }

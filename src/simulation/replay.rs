@@ -6,6 +6,7 @@ use super::step_loop::{Phase, StepLoop};
 use super::teaching::Lesson;
 use super::{Progress, SimulationError};
 use crate::control::{Controller, TrajectoryController};
+use crate::world::StateTrace;
 
 /// What a replay measured.
 pub(super) struct Replay {
@@ -13,6 +14,8 @@ pub(super) struct Replay {
     pub wrench: Vec<[f64; 6]>,
     /// Hash of the world's states.
     pub state_hash: u64,
+    /// What was kept of them.
+    pub trace: StateTrace,
     /// Engine steps.
     pub steps: u64,
 }
@@ -36,6 +39,8 @@ pub(super) fn replay(setup: &Setup, lesson: &Lesson, progress: &dyn Progress) ->
         step_s,
         phase: Phase { name: "replay", progress },
     };
+    let kept = &setup.experiment.trace;
+    run.world.trace(kept.every_steps, kept.detail_of("replay", lesson.number), steps);
     run.run(
         steps,
         |_, _| {},
@@ -45,5 +50,5 @@ pub(super) fn replay(setup: &Setup, lesson: &Lesson, progress: &dyn Progress) ->
             }
         },
     )?;
-    Ok(Replay { wrench, state_hash: world.state_hash(), steps })
+    Ok(Replay { wrench, state_hash: world.state_hash(), trace: world.take_trace(), steps })
 }

@@ -4,10 +4,10 @@ use rayon::prelude::*;
 use twox_hash::XxHash3_64;
 
 use super::execution::execute;
-use super::replay::replay;
+use super::replay::{Replay, replay};
 use super::setup::Setup;
 use super::teaching::{Lesson, demonstration, settings_of, teach};
-use super::{DemonstrationSource, Experiment, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan};
+use super::{DemonstrationSource, Experiment, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan, WorldTrace};
 use crate::demonstration::{Dataset, Demonstration, ParameterSource};
 use crate::learning::{self, Learned, Skill};
 
@@ -60,8 +60,12 @@ pub fn perform(
     progress.phase("execute", 0);
     let executed = execute(setup, &learned.skill, progress)?;
     let mut report = learned.report.clone();
+    if setup.experiment.trace.every_steps > 0 {
+        history.traces.push(WorldTrace::of_text("learn", "skill", &learned.skill.to_json()?));
+    }
     report.warnings.extend(extrapolation(setup, &learned.skill)?);
     history.hashes.push(executed.state_hash);
+    history.traces.extend(WorldTrace::of("execute", 0, executed.trace));
     history.close("execute", executed.steps, started, progress);
     let state_hash = history.hash();
     Ok(RunOutcome {
@@ -78,6 +82,7 @@ pub fn perform(
         clearances: executed.clearances,
         phases: history.phases,
         state_hash,
+        traces: history.traces,
         final_objects: executed.final_objects,
     })
 }
@@ -96,7 +101,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     let started = progress.elapsed_s();
     let each = setup.steps(plan.duration_s) + 1;
     progress.phase("teach", each * settings.len() as u64);
-    let lessons: Vec<Lesson> = settings
+    let mut lessons: Vec<Lesson> = settings
         .par_iter()
         .enumerate()
         .map(|(number, parameters)| {
@@ -106,25 +111,28 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
         })
         .collect::<Result<_, SimulationError>>()?;
     history.hashes.extend(lessons.iter().map(|lesson| lesson.state_hash));
+    history.traces.extend(lessons.iter_mut().filter_map(|l| WorldTrace::of("teach", l.number, std::mem::take(&mut l.trace))));
     history.close("teach", lessons.iter().map(|lesson| lesson.steps).sum(), started, progress);
 
     let started = progress.elapsed_s();
     progress.phase("replay", each * lessons.len() as u64);
-    let replays: Vec<(Demonstration, u64, u64)> = lessons
+    let replays: Vec<(Demonstration, Replay)> = lessons
         .par_iter()
         .map(|lesson| {
             let replayed = replay(setup, lesson, progress)?;
             progress.advance(replayed.steps);
-            Ok((demonstration(setup, lesson, &replayed.wrench)?, replayed.state_hash, replayed.steps))
+            Ok((demonstration(setup, lesson, &replayed.wrench)?, replayed))
         })
         .collect::<Result<_, SimulationError>>()?;
-    history.hashes.extend(replays.iter().map(|(_, hash, _)| *hash));
-    history.close("replay", replays.iter().map(|(_, _, steps)| *steps).sum(), started, progress);
+    history.hashes.extend(replays.iter().map(|(_, replayed)| replayed.state_hash));
+    history.close("replay", replays.iter().map(|(_, replayed)| replayed.steps).sum(), started, progress);
+    let (demonstrations, replays): (Vec<Demonstration>, Vec<Replay>) = replays.into_iter().unzip();
+    history.traces.extend((0..).zip(replays).filter_map(|(number, replayed)| WorldTrace::of("replay", number, replayed.trace)));
     Ok(Dataset {
         motion: setup.taught_motion(),
         wrench: ["fx_n", "fy_n", "fz_n"].map(String::from).to_vec(),
         parameter_source: ParameterSource::Given,
-        demonstrations: replays.into_iter().map(|(demonstration, _, _)| demonstration).collect(),
+        demonstrations,
     })
 }
 
@@ -133,6 +141,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
 pub struct History {
     phases: Vec<PhaseSummary>,
     hashes: Vec<u64>,
+    traces: Vec<WorldTrace>,
 }
 
 impl History {

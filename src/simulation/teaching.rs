@@ -11,7 +11,7 @@ use super::{Progress, SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
 use crate::demonstration::{Demonstration, Trajectory};
 use crate::math;
-use crate::world::{Parameters, pointing_down};
+use crate::world::{Parameters, StateTrace, pointing_down};
 
 /// One demonstration as it was led, before its wrench is known.
 #[derive(Clone, Debug)]
@@ -30,6 +30,8 @@ pub(super) struct Lesson {
     pub joints: Vec<Vec<f64>>,
     /// Hash of the world's states.
     pub state_hash: u64,
+    /// What was kept of them.
+    pub trace: StateTrace,
     /// Engine steps.
     pub steps: u64,
 }
@@ -72,6 +74,7 @@ pub(super) fn teach(
         step_s: experiment.physics.step_s,
         phase: Phase { name: "teach", progress },
     };
+    run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("teach", number), steps + 1);
     run.run(
         steps + 1,
         |controller, world| controller.gripper = path.at(world.time_s()).2,
@@ -90,6 +93,7 @@ pub(super) fn teach(
         path: recorder.path,
         joints: recorder.joints,
         state_hash: world.state_hash(),
+        trace: world.take_trace(),
         steps: steps + 1,
     })
 }

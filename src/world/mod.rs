@@ -23,6 +23,7 @@ mod scene;
 mod seen;
 mod sensors;
 mod simulated_world;
+mod state_trace;
 mod virtual_human;
 mod watch;
 
@@ -37,4 +38,5 @@ pub use proximity::{Clearance, nearest_of_each};
 pub use scene::{ObjectPart, PartShape, object_parts};
 pub use sensors::{EffortSensors, SensorSettings};
 pub use simulated_world::{World, WorldSettings};
+pub use state_trace::{BodyState, QUANTITIES, Quantum, StateTrace};
 pub use virtual_human::{GraspState, Hand, HandWrench, HumanSettings, pointing_down};

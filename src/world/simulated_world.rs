@@ -2,12 +2,13 @@
 
 use std::hash::Hasher;
 
-use rapier3d_f64::prelude::{PhysicsWorld, RigidBody, RigidBodyHandle};
+use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyHandle};
 use twox_hash::XxHash3_64;
 
 use super::contacts::ContactBook;
 use super::parts::Parts;
 use super::robot_body::{Limbs, RobotBody};
+use super::state_trace::{Tracer, state_of};
 use super::watch::EngineWatch;
 use super::{HandWrench, Object, Parameters, PhysicsSettings, WorldError, convert, overlap, physics, scene};
 use crate::robot::{JointCommand, RobotModel};
@@ -54,6 +55,7 @@ pub struct World {
     pub(super) joint_state: (Vec<f64>, Vec<f64>),
     pub(super) hand: HandWrench,
     pub(super) hasher: XxHash3_64,
+    pub(super) tracer: Option<Tracer>,
     pub(super) step: u64,
 }
 
@@ -101,6 +103,7 @@ impl World {
             joint_state: (vec![0.0; n], vec![0.0; n]),
             hand: HandWrench::default(),
             hasher: XxHash3_64::with_seed(0),
+            tracer: None,
             step: 0,
         };
         world.command_gripper(1.0);
@@ -151,6 +154,7 @@ impl World {
         self.update_held();
         self.watch_step(time_s);
         self.hash_state();
+        self.record_trace();
         Ok(())
     }
 
@@ -199,12 +203,6 @@ impl World {
             }
         }
     }
-}
-
-/// Pose and velocity of a body as plain numbers.
-fn state_of(body: &RigidBody) -> [f64; 13] {
-    let (p, r, v, w) = (body.translation(), body.rotation(), body.linvel(), body.angvel());
-    [p.x, p.y, p.z, r.x, r.y, r.z, r.w, v.x, v.y, v.z, w.x, w.y, w.z]
 }
 
 /// Range of a gripper's leading finger: where it is closed and where it is open (m).

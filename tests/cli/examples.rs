@@ -1,6 +1,7 @@
 //! The command lines that the README and `--help` show are run as they stand, one after the other in one folder.
 
 use super::{Folder, GOOD};
+use crate::support::LEFT_POSTURE;
 use crate::support::hand_made::strokes_csv;
 
 const README: &str = include_str!("../../README.md");
@@ -30,7 +31,13 @@ fn words(line: &str) -> Vec<String> {
 /// Everything that the examples need, with scenarios that take seconds instead of minutes: what they are called and their keys are as shown.
 fn workplace() -> Folder {
     let scenario = GOOD.replace("name = \"good\"", "name = \"pick_and_place\"").replace("name = \"block\"", "name = \"block_1\"");
-    Folder::with(&[("scenarios/pick_and_place.toml", scenario.as_bytes()), ("strokes.csv", strokes_csv(6).as_bytes())])
+    let joints = LEFT_POSTURE.map(|angle| angle.to_string()).join(",");
+    let path = format!("time_s,{}\n0,{joints}\n1,{joints}\n", [1, 2, 3, 4, 5, 6, 7].map(|joint| format!("q{joint}_rad")).join(","));
+    Folder::with(&[
+        ("scenarios/pick_and_place.toml", scenario.as_bytes()),
+        ("strokes.csv", strokes_csv(6).as_bytes()),
+        ("path.csv", path.as_bytes()),
+    ])
 }
 
 /// Contract: what the README tells people to type works. A check of something that was moved may find what it is to find.

@@ -12,7 +12,9 @@ mod overrides;
 mod planar_run;
 mod program;
 mod real_run;
+mod replay;
 mod run_folder;
 mod schemas;
+mod sweep;
 
 pub use program::{Folder, GOOD, Said, cpdmp};

@@ -32,7 +32,7 @@ fn a_planar_run_tells_the_same_everywhere_and_can_be_repeated() {
     let mut written = names(&run);
     written.retain(|name| name != "recording.rrd");
     let files = ["demonstrations", "figures", "manifest.json", "paths.parquet", "report.json", "scenario.toml"];
-    assert_eq!(written, [&files[..], &["skill.json", "skill_lwr_dmp_one_side.json"]].concat());
+    assert_eq!(written, [&files[..], &["skill.json", "skill_lwr_dmp_one_side.json", "state_hashes.parquet"]].concat());
     assert_eq!(run.join("recording.rrd").exists(), cfg!(feature = "rerun"));
     for name in names(&run.join("figures")) {
         let text = fs::read_to_string(run.join("figures").join(&name)).expect("a figure");

@@ -36,7 +36,19 @@ fn a_run_tells_the_same_everywhere_and_can_be_repeated() {
     let mut written = names(&run);
     // Absent when the program is built without the feature `rerun`.
     written.retain(|name| name != "recording.rrd");
-    assert_eq!(written, ["demonstrations", "figures", "manifest.json", "report.json", "scenario.toml", "skill.json", "steps.parquet"]);
+    assert_eq!(
+        written,
+        [
+            "demonstrations",
+            "figures",
+            "manifest.json",
+            "report.json",
+            "scenario.toml",
+            "skill.json",
+            "state_hashes.parquet",
+            "steps.parquet"
+        ]
+    );
     assert_eq!(names(&folder.path().join("runs")), ["good-0"]);
 
     for path in ["runs/good-0", "runs/good-0/manifest.json"] {

@@ -13,4 +13,5 @@ mod robot_meshes;
 mod robot_official;
 mod robot_urdf;
 mod robot_wrench;
+mod state_trace;
 mod wrench;

@@ -64,6 +64,7 @@ fn learned(shaping: ShapingKind) -> RunOutcome {
         clearances: Vec::new(),
         phases: Vec::new(),
         state_hash: 0x1234,
+        traces: Vec::new(),
         final_objects: objects.to_vec(),
     }
 }

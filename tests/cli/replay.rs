@@ -1,0 +1,91 @@
+//! `replay` on the real binary: the same bits again, and the moment at which another run parts from the recorded one.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::{Folder, GOOD};
+
+/// A person who pushes at 3 s.
+const PUSHED: &str = r#"
+[human.help]
+kind = "push"
+force_n = [5.0, 0.0, 0.0]
+windows_s = [[3.0, 3.5]]
+"#;
+
+fn ran(files: &[(&str, &[u8])], arguments: &[&str]) -> Folder {
+    let folder = Folder::with(files);
+    let said = folder.call(&[&["run", "a.toml", "--out", "run", "-q"], arguments].concat());
+    assert!(matches!(said.code, Some(0 | 10)), "{}", said.stderr);
+    folder
+}
+
+fn told(folder: &Folder, arguments: &[&str]) -> (Option<i32>, Value) {
+    let said = folder.call(&[&["replay", "run", "--format", "json", "-q"], arguments].concat());
+    (said.code, serde_json::from_str(&said.stdout).unwrap_or_else(|_| panic!("{}{}", said.stdout, said.stderr)))
+}
+
+/// Contract: the same run is the same to the last bit on any number of threads; another one is caught in the very step in which it becomes
+/// another. The truth here is the person: a push that begins at 2 s changes nothing up to 2 s, and something in the step or two after it.
+#[test]
+fn a_run_is_repeated_to_the_bit_and_a_changed_one_is_caught_in_its_step() {
+    let folder = ran(&[("a.toml", format!("{GOOD}{PUSHED}").as_bytes())], &[]);
+    for jobs in ["1", "2"] {
+        let (code, same) = told(&folder, &["--jobs", jobs]);
+        assert_eq!((code, same["difference"].as_str()), (Some(0), None), "{same}");
+        assert_eq!(same["recorded_state_hash"], same["repeated_state_hash"]);
+        assert!(same["hashes"].as_u64() > Some(7 * 40), "three lessons, three replays and an execution of 4 s, 10 hashes per second");
+    }
+    let (code, changed) = told(&folder, &["--set", "human.help.windows_s=[[2.0, 2.5]]"]);
+    assert_eq!(code, Some(13), "{changed}");
+    assert_eq!((changed["phase"].as_str(), changed["number"].as_u64()), (Some("execute"), Some(0)), "{changed}");
+    assert!((2001..=2003).contains(&changed["step"].as_u64().expect("a step")), "{changed}");
+    let difference = changed["difference"].as_str().expect("words");
+    assert!(difference.contains("first differs in step 200") && difference.contains("of `left_"), "{difference}");
+    assert!(changed["reasons"][0].as_str().is_some_and(|reason| reason.contains("flags")), "{changed}");
+}
+
+#[test]
+fn what_differs_without_flags_is_told_with_the_promise() {
+    let folder = ran(&[("a.toml", GOOD.as_bytes())], &[]);
+    fs::rename(folder.path().join("run"), folder.path().join("taught")).expect("renamed");
+    let from = ["--set", "demonstrations=taught/demonstrations", "--set", "recording.rrd=false"];
+    assert_eq!(folder.call(&[&["run", "a.toml", "--out", "run", "-q"][..], &from].concat()).code, Some(0));
+    assert_eq!(told(&folder, &[]).0, Some(0), "a run from a dataset repeats too");
+    let dataset = folder.path().join("taught/demonstrations");
+    let file = fs::read_dir(&dataset).expect("a dataset").map(|entry| entry.expect("a file").path());
+    let file = file.filter(|path| path.extension().is_some_and(|extension| extension == "csv")).min().expect("a demonstration");
+    let text = fs::read_to_string(&file).expect("text");
+    let last = text.lines().last().expect("a row");
+    // One sample of one demonstration, away by a micrometre.
+    let cells: Vec<&str> = last.split(',').collect();
+    let moved = cells[1].parse::<f64>().expect("a number") + 1e-6;
+    fs::write(&file, text.replace(last, &last.replacen(cells[1], &moved.to_string(), 1))).expect("written");
+    let (code, changed) = told(&folder, &[]);
+    assert_eq!((code, changed["phase"].as_str()), (Some(13), Some("learn")), "{changed}");
+    let reasons = changed["reasons"].to_string();
+    assert!(reasons.contains("has changed since the run") && !reasons.contains("bug"), "{reasons}");
+}
+
+#[test]
+fn a_planar_run_is_repeated_too() {
+    let shipped = include_str!("../../scenarios/obstacle_avoidance.toml");
+    let folder = ran(&[("a.toml", shipped.as_bytes())], &[]);
+    assert_eq!(told(&folder, &["--jobs", "1"]).0, Some(0));
+    let (code, changed) = told(&folder, &["--set", "learning.motion.states=15"]);
+    assert_eq!((code, changed["phase"].as_str()), (Some(13), Some("learn")), "what was shown is the same: {changed}");
+}
+
+#[test]
+fn what_is_no_run_or_has_no_hashes_is_told() {
+    let folder = ran(&[("a.toml", GOOD.as_bytes())], &["--set", "recording.hash_every_steps=0"]);
+    assert!(!folder.path().join("run/state_hashes.parquet").exists());
+    assert_eq!(told(&folder, &[]).0, Some(0), "the last hash is compared all the same");
+    let (code, changed) = told(&folder, &["--seed", "1"]);
+    assert!(code == Some(13) && changed["difference"].as_str().is_some_and(|text| text.contains("no hashes were recorded")), "{changed}");
+    fs::write(folder.path().join("run/state_hashes.parquet"), "PAR1 cut short").expect("written");
+    for run in ["run", ".", "absent"] {
+        assert_eq!(folder.call(&["replay", run]).code, Some(3), "{run}");
+    }
+}
