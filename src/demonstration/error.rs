@@ -82,36 +82,13 @@ impl DemonstrationError {
     }
 }
 
-/// How many lines of faults are written out; the rest is counted.
-const LINES_SHOWN: usize = 20;
-/// From how many faults on a column of a file is told in one line: one mistake, such as decimal commas, is then in every row.
-const SAME_MISTAKE: usize = 4;
+/// How many faults are written out; the rest is counted.
+const FAULTS_SHOWN: usize = 20;
 
 fn listed(faults: &[Fault]) -> String {
-    let same = |a: &Fault, b: &Fault| a.row.is_some() && b.row.is_some() && (&a.place, &a.column) == (&b.place, &b.column);
-    let mut groups: Vec<Vec<&Fault>> = Vec::new();
-    for fault in faults {
-        match groups.iter_mut().find(|group| same(group[0], fault)) {
-            Some(group) => group.push(fault),
-            None => groups.push(vec![fault]),
-        }
-    }
-    let mut lines: Vec<String> = groups.iter().flat_map(|group| told(group)).collect();
-    if lines.len() > LINES_SHOWN {
-        let more = lines.len() - LINES_SHOWN;
-        lines.truncate(LINES_SHOWN);
-        lines.push(format!("and {more} more"));
+    let mut lines: Vec<String> = faults.iter().take(FAULTS_SHOWN).map(ToString::to_string).collect();
+    if faults.len() > FAULTS_SHOWN {
+        lines.push(format!("and {} more faults", faults.len() - FAULTS_SHOWN));
     }
     lines.join("\n")
-}
-
-/// Faults of one column of a file: each, or the first and how many more there are.
-fn told(group: &[&Fault]) -> Vec<String> {
-    match group {
-        [first, .., last] if group.len() >= SAME_MISTAKE => {
-            let until = last.row.map_or(String::new(), |row| format!(", the last in row {row}"));
-            vec![format!("{first} (and {} more in this column{until})", group.len() - 1)]
-        }
-        _ => group.iter().map(ToString::to_string).collect(),
-    }
 }
