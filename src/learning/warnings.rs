@@ -52,14 +52,8 @@ fn about_parameters(kind: &str, names: &[String], thetas: &[&DVector<f64>]) -> O
     let scatter = deviations.tr_mul(&deviations);
     let LeastSquares { rank, condition, .. } = solve_normal_equations(&scatter, &DMatrix::zeros(p, 0));
     let listed = names.join(", ");
-    let constant: Vec<&str> = (0..p).filter(|j| scatter[(*j, *j)] == 0.0).map(|j| names[j].as_str()).collect();
-    if !constant.is_empty() {
-        let who = constant.join(", ");
-        return Some(format!("{kind} [{listed}]: no demonstration differs in {who}, which therefore has no effect (rank {rank} of {p})"));
-    }
     if rank < p {
-        let together = "they vary together, and only their combination is learned";
-        return Some(format!("{kind} [{listed}]: {together} (rank {rank} of {p}, condition {condition:.1e})"));
+        return Some(format!("{kind} [{listed}]: the demonstrations vary {rank} of {p} parameters; the others have no effect"));
     }
     (condition > LARGE_CONDITION)
         .then(|| format!("{kind} [{listed}]: nearly collinear over the demonstrations (condition {condition:.1e})"))
