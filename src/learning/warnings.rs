@@ -53,7 +53,12 @@ fn about_parameters(kind: &str, names: &[String], thetas: &[&DVector<f64>]) -> O
     let LeastSquares { rank, condition, .. } = solve_normal_equations(&scatter, &DMatrix::zeros(p, 0));
     let listed = names.join(", ");
     if rank < p {
-        return Some(format!("{kind} [{listed}]: the demonstrations vary {rank} of {p} parameters; the others have no effect"));
+        let constant: Vec<&str> = (0..p).filter(|j| scatter[(*j, *j)] == 0.0).map(|j| names[j].as_str()).collect();
+        let consequence = match &constant[..] {
+            [] => format!("they change together (condition {condition:.1e}), and only their combination is learned"),
+            names => format!("{} never changes and has no effect", names.join(", ")),
+        };
+        return Some(format!("{kind} [{listed}]: the demonstrations vary {rank} of {p} parameters; {consequence}"));
     }
     (condition > LARGE_CONDITION)
         .then(|| format!("{kind} [{listed}]: nearly collinear over the demonstrations (condition {condition:.1e})"))

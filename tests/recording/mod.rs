@@ -1,5 +1,7 @@
 //! What is kept of a run: the files hold what the records say, bit for bit where they hold numbers, and failures are told.
 
+#[cfg(feature = "rerun")]
+mod documented;
 pub mod made_up_run;
 mod path_log;
 #[cfg(feature = "rerun")]

@@ -16,6 +16,8 @@ use rerun::external::re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
 use rerun::log::Chunk;
 
+use super::documented::assert_documented;
+
 /// The experiment with small models, and the data of its recording without the layout.
 static RECORDED: LazyLock<(PlanarOutcome, Vec<Chunk>)> = LazyLock::new(|| {
     let mut settings = TwoSidedObstacleSettings::default();
@@ -96,18 +98,8 @@ fn dots_move_along_the_paths_of_their_method() {
 
 #[test]
 fn entities_and_the_timeline_are_those_that_are_documented() {
-    let fits = |entity: &str, pattern: &str| {
-        let same = entity.split('/').zip(pattern.split('/')).all(|(part, pattern)| part == pattern || pattern.starts_with('{'));
-        same && entity.matches('/').count() == pattern.matches('/').count()
-    };
     let chunks = &RECORDED.1;
-    let found: BTreeSet<String> = chunks.iter().map(|chunk| chunk.entity_path().to_string().trim_start_matches('/').to_owned()).collect();
-    for entity in found.iter().filter(|entity| !entity.starts_with("__")) {
-        assert!(ENTITIES.iter().any(|documented| fits(entity, documented.pattern)), "{entity} is not documented");
-    }
-    for documented in ENTITIES {
-        assert!(found.iter().any(|entity| fits(entity, documented.pattern)), "nothing is logged to {}", documented.pattern);
-    }
+    assert_documented(chunks, &ENTITIES.iter().map(|entity| entity.pattern).collect::<Vec<_>>());
     let timelines: BTreeSet<&str> = chunks.iter().flat_map(|chunk| chunk.timelines().keys().map(|name| name.as_str())).collect();
     assert_eq!(timelines, [PHASE_INPUT.name].into());
 }

@@ -16,6 +16,7 @@ use rerun::log::Chunk;
 use rerun::{ComponentDescriptor, EntityPath};
 use tempfile::TempDir;
 
+use super::documented::assert_documented;
 use super::made_up_run::{CLOSED, COMPLIES, HOLDS, outcome, outcome_of_the_baseline};
 
 /// The shipped experiment.
@@ -121,18 +122,7 @@ fn events_tell_what_happened_in_order() {
 fn entities_and_timelines_are_those_that_are_documented() {
     let (_folder, path) = written(&outcome());
     let chunks = chunks(&path);
-    let fits = |entity: &str, pattern: &str| {
-        let (mut parts, mut patterns) = (entity.split('/'), pattern.split('/'));
-        let same = parts.by_ref().zip(patterns.by_ref()).all(|(part, pattern)| part == pattern || pattern.starts_with('{'));
-        same && entity.matches('/').count() == pattern.matches('/').count()
-    };
-    let found: BTreeSet<String> = chunks.iter().map(|chunk| chunk.entity_path().to_string().trim_start_matches('/').to_owned()).collect();
-    for entity in found.iter().filter(|entity| !entity.starts_with("__")) {
-        assert!(ENTITIES.iter().any(|documented| fits(entity, documented.pattern)), "{entity} is not documented");
-    }
-    for documented in ENTITIES {
-        assert!(found.iter().any(|entity| fits(entity, documented.pattern)), "nothing is logged to {}", documented.pattern);
-    }
+    assert_documented(&chunks, &ENTITIES.iter().map(|entity| entity.pattern).collect::<Vec<_>>());
     let timelines: BTreeSet<&str> = chunks.iter().flat_map(|chunk| chunk.timelines().keys().map(|name| name.as_str())).collect();
     assert_eq!(timelines, TIMELINES.map(|timeline| timeline.name).into_iter().collect());
 }
