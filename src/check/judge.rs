@@ -1,5 +1,6 @@
 //! Answers a scenario's criteria.
 
+use super::door;
 use super::judge_objects::{expected_force, no_collision, object_at};
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
@@ -56,6 +57,10 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
             (object_in_container(outcome, experiment, object, container, *speed_max_m_per_s), true)
         }
         CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
+        CriterionKind::DoorOpen { object, min_rad } => (door::open(outcome, experiment, object, *min_rad), false),
+        CriterionKind::ArcFollowed { object, of, max_m } => (door::arc_followed(steps, experiment, object, *of, *max_m), true),
+        CriterionKind::HookKept { object, max_m } => (door::hook_kept(steps, experiment, object, *max_m), true),
+        CriterionKind::ToolForce { max_n } => (tool_force(outcome, *max_n), true),
         CriterionKind::Clearance { objects, links, min_m } => (clearance_of(&outcome.clearances, objects, links, *min_m), false),
         // Asked of planar experiments only: of an arm there is nothing to measure.
         CriterionKind::PlanarClearance { min_m, .. } | CriterionKind::PlanarSidesPassed { min_m, .. } => {
@@ -141,6 +146,11 @@ fn human_force(outcome: &RunOutcome, max_n: f64) -> Answer {
     let failed = outcome.steps.iter().find(|step| step.human.force.norm() > allowed).map(|step| step.time_s);
     let value = outcome.human_peak_force_n;
     Answer { passed: value <= allowed, value, limit: max_n, unit: "N", first_failed_time_s: failed }
+}
+
+fn tool_force(outcome: &RunOutcome, max_n: f64) -> Answer {
+    let failed = outcome.steps.iter().find(|step| step.tool_force.norm() > max_n).map(|step| step.time_s);
+    Answer::at_most(outcome.tool_peak_force_n, max_n, "N").first_failed(failed)
 }
 
 /// The moment when the gripper is first told to close.

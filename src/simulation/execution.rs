@@ -14,6 +14,7 @@ use crate::world::{Clearance, ContactEpisode, StateTrace, World};
 pub(super) struct Executed {
     pub records: Vec<StepRecord>,
     pub human_peak_force_n: f64,
+    pub tool_peak_force_n: f64,
     pub goal: Vector3<f64>,
     pub collisions: Vec<ContactEpisode>,
     pub clearances: Vec<Clearance>,
@@ -48,7 +49,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
     let mut settled = 0;
     let every = setup.steps(1.0 / experiment.log_rate_hz).max(1);
     let mut records = Vec::with_capacity((setup.steps(duration) / every) as usize + 1);
-    let mut human_peak_force_n: f64 = 0.0;
+    let (mut human_peak_force_n, mut tool_peak_force_n): (f64, f64) = (0.0, 0.0);
     let mut hold = setup.hold();
     let mut run = StepLoop {
         world: &mut world,
@@ -64,6 +65,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
         |_, _| {},
         |now| {
             human_peak_force_n = now.hand.force.norm().max(human_peak_force_n);
+            tool_peak_force_n = now.world.tool_force().norm().max(tool_peak_force_n);
             if now.world.step().is_multiple_of(every) {
                 records.push(record(now, names.len()));
             }
@@ -74,6 +76,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
     Ok(Executed {
         records,
         human_peak_force_n,
+        tool_peak_force_n,
         goal,
         collisions: world.contacts().to_vec(),
         clearances: world.clearances().to_vec(),
@@ -117,6 +120,7 @@ fn record(now: &Published<SkillController>, objects: usize) -> StepRecord {
         gripper_command: now.command.gripper,
         gripper_opening: now.observation.gripper_opening,
         human: now.hand,
+        tool_force: now.world.tool_force(),
         bodies,
         objects: (0..objects).map(|index| now.world.object_pose(index)).collect(),
         kinetic_energy_j: now.world.kinetic_energy_j(),

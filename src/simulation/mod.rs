@@ -12,6 +12,7 @@ mod outcome;
 mod person;
 mod preflight;
 mod progress;
+mod reachable;
 mod replay;
 mod run;
 mod setup;

@@ -77,6 +77,7 @@ pub fn perform(
         plan,
         steps: executed.records,
         human_peak_force_n: executed.human_peak_force_n,
+        tool_peak_force_n: executed.tool_peak_force_n,
         goal: executed.goal,
         collisions: executed.collisions,
         clearances: executed.clearances,

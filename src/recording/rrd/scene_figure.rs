@@ -1,13 +1,13 @@
 //! The objects of the scene.
 
 use nalgebra::Isometry3;
-use rerun::{Boxes3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
+use rerun::{Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
 
 use super::convert;
 use super::entity_path::{OBJECT, OBJECT_SHAPE};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{Experiment, StepRecord};
-use crate::world::{Object, ObjectKind, PartShape, object_parts, support_height_m};
+use crate::world::{Object, ObjectKind, ObjectPart, PartShape, fixed_parts, object_parts, support_height_m};
 
 /// Logs every object: its shapes, and its pose over time.
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
@@ -18,15 +18,20 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
             poses = vec![object.pose(&experiment.parameters, support)];
         }
         recorder.poses(OBJECT.of(&[&object.name]), &poses)?;
-        log_shapes(recorder, experiment, object)?;
+        log_shapes(recorder, &object.name, color(object), &object_parts(object, &experiment.parameters))?;
+        let fixed = fixed_parts(object);
+        if !fixed.is_empty() {
+            let name = format!("{}_walls", object.name);
+            recorder.poses(OBJECT.of(&[&name]), &[object.pose(&experiment.parameters, support)])?;
+            log_shapes(recorder, &name, color(object), &fixed)?;
+        }
     }
     Ok(())
 }
 
-fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> Result<(), Fault> {
-    let color = color(object);
-    let (mut boxes, mut balls, mut cylinders) = (Vec::new(), Vec::new(), Vec::new());
-    for part in object_parts(object, &experiment.parameters) {
+fn log_shapes(recorder: &Recorder, name: &str, color: Color, parts: &[ObjectPart]) -> Result<(), Fault> {
+    let (mut boxes, mut balls, mut cylinders, mut bars) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for part in parts {
         let pose = part.object_from_part;
         let place = convert::vector(&pose.translation.vector);
         match part.shape {
@@ -35,6 +40,11 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             PartShape::Cylinder(radius, height) => {
                 cylinders.push((place, convert::quaternion(&pose.rotation), radius as f32, height as f32));
             }
+            PartShape::Capsule(radius, height) => {
+                // A capsule of the viewer begins at its origin.
+                let foot = pose * nalgebra::Point3::new(0.0, 0.0, -height / 2.0);
+                bars.push((convert::vector(&foot.coords), convert::quaternion(&pose.rotation), radius as f32, height as f32));
+            }
         }
     }
     if !boxes.is_empty() {
@@ -42,13 +52,13 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_quaternions(boxes.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "boxes"]), &solid)?;
+        recorder.always(OBJECT_SHAPE.of(&[name, "boxes"]), &solid)?;
     }
     if !balls.is_empty() {
         let solid = Ellipsoids3D::from_centers_and_radii(balls.iter().map(|b| b.0), balls.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "balls"]), &solid)?;
+        recorder.always(OBJECT_SHAPE.of(&[name, "balls"]), &solid)?;
     }
     if !cylinders.is_empty() {
         let solid = Cylinders3D::from_lengths_and_radii(cylinders.iter().map(|c| c.3), cylinders.iter().map(|c| c.2))
@@ -56,7 +66,15 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_quaternions(cylinders.iter().map(|c| c.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "cylinders"]), &solid)?;
+        recorder.always(OBJECT_SHAPE.of(&[name, "cylinders"]), &solid)?;
+    }
+    if !bars.is_empty() {
+        let solid = Capsules3D::from_lengths_and_radii(bars.iter().map(|b| b.3), bars.iter().map(|b| b.2))
+            .with_translations(bars.iter().map(|b| b.0))
+            .with_quaternions(bars.iter().map(|b| b.1))
+            .with_colors([color])
+            .with_fill_mode(FillMode::Solid);
+        recorder.always(OBJECT_SHAPE.of(&[name, "bars"]), &solid)?;
     }
     Ok(())
 }
@@ -71,5 +89,6 @@ fn color(object: &Object) -> Color {
         ObjectKind::Cylinder { .. } => Color::from_rgb(236, 146, 62),
         ObjectKind::SpringPlate { .. } => Color::from_rgb(120, 170, 120),
         ObjectKind::Box { .. } => Color::from_rgb(214, 108, 70),
+        ObjectKind::Cabinet(_) => Color::from_rgb(172, 152, 122),
     }
 }
