@@ -160,7 +160,7 @@ impl World {
         }
         self.doors.iter().for_each(|door| door.act(&mut self.engine));
         self.step += 1;
-        physics::step(&mut self.engine, self.step)?;
+        physics::step(&mut self.engine, &self.parts, self.step)?;
         self.robot.working.settle_efforts(&self.engine);
         if let Some(hook) = &mut self.hook {
             hook.read(&self.engine);
