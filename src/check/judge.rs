@@ -2,6 +2,7 @@
 
 use super::door;
 use super::judge_objects::{expected_force, no_collision, object_at};
+use super::tool_force::tool_force;
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
@@ -60,7 +61,7 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         CriterionKind::DoorOpen { object, min_rad } => (door::open(outcome, experiment, object, *min_rad), false),
         CriterionKind::ArcFollowed { object, of, max_m } => (door::arc_followed(steps, experiment, object, *of, *max_m), true),
         CriterionKind::HookKept { object, max_m } => (door::hook_kept(steps, experiment, object, *max_m), true),
-        CriterionKind::ToolForce { max_n } => (tool_force(outcome, *max_n), true),
+        CriterionKind::ToolForce { mean_over_s, max_n } => (tool_force(outcome, *mean_over_s, *max_n), true),
         CriterionKind::Clearance { objects, links, min_m } => (clearance_of(&outcome.clearances, objects, links, *min_m), false),
         // Asked of planar experiments only: of an arm there is nothing to measure.
         CriterionKind::PlanarClearance { min_m, .. } | CriterionKind::PlanarSidesPassed { min_m, .. } => {
@@ -146,11 +147,6 @@ fn human_force(outcome: &RunOutcome, max_n: f64) -> Answer {
     let failed = outcome.steps.iter().find(|step| step.human.force.norm() > allowed).map(|step| step.time_s);
     let value = outcome.human_peak_force_n;
     Answer { passed: value <= allowed, value, limit: max_n, unit: "N", first_failed_time_s: failed }
-}
-
-fn tool_force(outcome: &RunOutcome, max_n: f64) -> Answer {
-    let failed = outcome.steps.iter().find(|step| step.tool_force.norm() > max_n).map(|step| step.time_s);
-    Answer::at_most(outcome.tool_peak_force_n, max_n, "N").first_failed(failed)
 }
 
 /// The moment when the gripper is first told to close.

@@ -10,6 +10,7 @@ mod judge_planar;
 mod place;
 mod planar_trace;
 mod replay_difference;
+mod tool_force;
 mod windows;
 
 pub use allowed_contact::{AllowedContact, allow};

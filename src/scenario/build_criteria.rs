@@ -51,7 +51,7 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
             CriterionKind::ArcFollowed { object: object(), of, max_m: max_m() }
         }
         "hook_kept" => CriterionKind::HookKept { object: object(), max_m: max_m() },
-        "tool_force" => CriterionKind::ToolForce { max_n: table.number("max_n") },
+        "tool_force" => CriterionKind::ToolForce { mean_over_s: table.number("mean_over_s"), max_n: table.number("max_n") },
         "clearance" => {
             CriterionKind::Clearance { objects: table.texts("objects"), links: table.texts("links"), min_m: table.number("min_m") }
         }

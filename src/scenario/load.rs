@@ -307,7 +307,7 @@ mod tests {
             "door_open\"\nobject = \"cabinet\"\nmin_rad = 0.9",
             "arc_followed\"\nobject = \"cabinet\"\nof = \"reference\"\nmax_m = 0.01",
             "hook_kept\"\nobject = \"cabinet\"\nmax_m = 0.01",
-            "tool_force\"\nmax_n = 20",
+            "tool_force\"\nmean_over_s = 0.02\nmax_n = 20",
             "clearance\"\nobjects = [\"block\"]\nmin_m = 0.005",
             "clearance\"\nobjects = [\"table\"]\nlinks = [\"left_hand\"]\nmin_m = 0.01",
             "no_collision\"",

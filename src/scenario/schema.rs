@@ -541,7 +541,15 @@ const CRITERION: Shape = Shape {
         },
         Variant {
             kind: "tool_force",
-            keys: &[Key::new("max_n", Number(within("N", 0.0, 1000.0)), "largest force of the objects on fingers and tool")],
+            keys: &[
+                Key::new(
+                    "mean_over_s",
+                    Number(within("s", 0.0, 1.0)),
+                    "over which time the force is averaged, rounded up to whole logged steps; 0: every step of the engine",
+                )
+                .or_number(0.0),
+                Key::new("max_n", Number(within("N", 0.0, 1000.0)), "largest force of the objects on fingers and tool"),
+            ],
         },
         Variant {
             kind: "clearance",

@@ -95,6 +95,7 @@ fn record(i: usize, bodies: usize, objects: usize) -> StepRecord {
         gripper_command: if CLOSED.contains(&i) { 0.0 } else { 1.0 },
         gripper_opening: if CLOSED.contains(&i) { 0.21 } else { 0.98 },
         tool_force: Vector3::zeros(),
+        tool_impulse: Vector3::zeros(),
         human: if HOLDS.contains(&i) {
             AppliedForce { point: Point3::from(vector(9.0)), force: vector(10.0) }
         } else {
