@@ -23,6 +23,7 @@ mod list;
 mod load;
 mod man;
 mod merge;
+mod migrate;
 mod planar_files;
 mod progress;
 mod replay;
@@ -75,6 +76,7 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
         Command::View(arguments) => view::view(arguments, &terminal),
+        Command::Migrate(arguments) => migrate::migrate(&arguments.files, arguments.dry_run, &terminal),
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.global, &terminal),
         Command::Replay(arguments) => replay::replay(&arguments.folder, &cli.global, &terminal),
         Command::Merge(arguments) => merge::merge(arguments, &cli.global, &terminal),

@@ -50,7 +50,7 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     };
     let started = std::time::SystemTime::now();
     terminal.note(&format!("{}: {}\n", ready.scenario.work.name(), ready.path.display()));
-    let progress = Shown::new(terminal);
+    let progress = Shown::new(terminal, global.timeout);
     let mut run = judged_run(&ready.scenario, &progress);
     if !run.wants_folder() {
         drop(progress);

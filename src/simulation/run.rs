@@ -58,7 +58,7 @@ pub fn perform(
     let question = setup.experiment.question();
     let plan = setup.with_place(learning::generate(&learned.skill, &question, 1.0 / setup.experiment.log_rate_hz, 1.0)?)?;
     progress.phase("execute", 0);
-    let executed = execute(setup, &learned.skill)?;
+    let executed = execute(setup, &learned.skill, progress)?;
     let mut report = learned.report.clone();
     if setup.experiment.trace.every_steps > 0 {
         history.traces.push(WorldTrace::of_text("learn", "skill", &learned.skill.to_json()?));
@@ -106,7 +106,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
         .par_iter()
         .enumerate()
         .map(|(number, parameters)| {
-            let lesson = teach(setup, plan, parameters, number as u64)?;
+            let lesson = teach(setup, plan, parameters, number as u64, progress)?;
             progress.advance(lesson.steps);
             Ok(lesson)
         })
@@ -120,7 +120,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     let replays: Vec<(Demonstration, Replay)> = lessons
         .par_iter()
         .map(|lesson| {
-            let replayed = replay(setup, lesson)?;
+            let replayed = replay(setup, lesson, progress)?;
             progress.advance(replayed.steps);
             Ok((demonstration(setup, lesson, &replayed.wrench)?, replayed))
         })

@@ -6,8 +6,8 @@ use super::guide_path::GuidePath;
 use super::person::Teacher;
 use super::setup::Setup;
 use super::space::joint_columns;
-use super::step_loop::{Published, StepLoop};
-use super::{LOOKS_HZ, LessonLook, SimulationError, TeachingPlan};
+use super::step_loop::{Phase, Published, StepLoop};
+use super::{LOOKS_HZ, LessonLook, Progress, SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
 use crate::demonstration::{Demonstration, Trajectory};
 use crate::math;
@@ -46,7 +46,13 @@ pub(super) fn settings_of(plan: &TeachingPlan, base: &Parameters) -> Vec<Paramet
 }
 
 /// Teaches demonstration `number` in the setting `parameters`.
-pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters, number: u64) -> Result<Lesson, SimulationError> {
+pub(super) fn teach(
+    setup: &Setup,
+    plan: &TeachingPlan,
+    parameters: &Parameters,
+    number: u64,
+    progress: &dyn Progress,
+) -> Result<Lesson, SimulationError> {
     let experiment = &setup.experiment;
     let mut variation = math::stream(experiment.seed, "human", number);
     let path = GuidePath::new(plan, &experiment.objects, parameters, &mut variation);
@@ -69,6 +75,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         sensors: &mut setup.sensors(2 * number),
         idle: hold.as_mut(),
         step_s: experiment.physics.step_s,
+        phase: Phase { name: "teach", progress },
     };
     run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("teach", number), steps + 1);
     run.run(

@@ -3,9 +3,11 @@
 mod check;
 mod check_motion;
 mod commands;
+mod examples;
 mod generate;
 mod inspect;
 mod learn;
+mod migrate;
 mod overrides;
 mod planar_run;
 mod program;

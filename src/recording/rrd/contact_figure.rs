@@ -7,14 +7,14 @@ use super::entity_path::{CONTACT, NEAREST};
 use super::palette;
 use super::recorder::{Fault, Recorder};
 use crate::simulation::RunOutcome;
-use crate::world::ContactEpisode;
+use crate::world::{ContactEpisode, NEAR_M, nearest_of_each};
 
 /// What happens in a moment is shown from so long before it to so long after it (s).
 const SHOWN_S: [f64; 2] = [0.4, 0.8];
 
-/// Logs contacts and smallest distances when they happen.
+/// Logs contacts, and smallest distances that are near ones, when they happen.
 pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome) -> Result<(), Fault> {
-    for clearance in outcome.clearances.iter().filter(|clearance| clearance.min_distance_m.is_finite()) {
+    for clearance in nearest_of_each(&outcome.clearances).into_iter().filter(|clearance| clearance.min_distance_m < NEAR_M) {
         let entity = NEAREST.of(&[&clearance.b]);
         let look = LineStrips3D::update_fields().with_colors([palette::TOUCH]).with_radii([0.003]).with_show_labels(true);
         recorder.always(entity.clone(), &look)?;

@@ -108,7 +108,7 @@ entities! {
     STATE_LANE "lanes/state" "the active state"
     GRIPPER_LANE "lanes/gripper" "whether the gripper is told to be open or closed"
     PERSON_LANE "lanes/person" "whether the person holds the arm"
-    NEAREST "world/nearest/{object}" "where the arm, or what it holds, is nearest to an object: a line while it happens"
+    NEAREST "world/nearest/{object}" "where the arm, or what it holds, comes nearest to an object, if within 5 cm: a line while it happens"
     CONTACT "world/contacts" "where something touches, when it is deepest: red what must not, white what may"
     TEACHING "teaching" "the lessons, on the timeline teaching_time: the scene in the robot's base frame (m)"
     TEACHING_BODY "teaching/robot/{body}" "pose of a robot body while a person leads the arm"
