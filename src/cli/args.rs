@@ -7,6 +7,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::learning_args::{Generate, Inspect, Learn};
 use super::sweep_args::{MergeArguments, SweepArguments};
+use super::view::View;
+use super::viewer::Viewer;
 
 /// A physics testbed for Compliant Parametric Dynamic Movement Primitives.
 ///
@@ -25,7 +27,7 @@ pub(super) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Teach, learn, execute, judge and record: one run folder per scenario
-    Run(Paths),
+    Run(Run),
     /// Run without recording or display and judge: what a continuous integration calls
     Check(Check),
     /// Check scenarios and what they need, without simulating: all faults at once
@@ -36,6 +38,8 @@ pub(super) enum Command {
     Generate(Generate),
     /// Say what a skill, a dataset, a run folder or a robot's file holds
     Inspect(Inspect),
+    /// Show the recording of a run in the rerun viewer
+    View(View),
     /// Bring files of an older version of the program to this one's
     Migrate(Files),
     /// Run a scenario again and again with other values of its keys: one table, one row per run
@@ -56,6 +60,18 @@ pub(super) enum Command {
     Completions(Shell),
     /// Print the manual page, or write those of all commands to a folder with --out
     Man,
+}
+
+/// What is run, and who watches.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    #[command(flatten)]
+    pub scenarios: Paths,
+    /// Show the recording in the rerun viewer as soon as it is there; a viewer that is missing changes nothing about the run
+    #[arg(long, env = "CPDMP_VIEWER")]
+    pub viewer: bool,
+    #[command(flatten)]
+    pub with: Viewer,
 }
 
 /// Scenarios.

@@ -16,5 +16,6 @@ mod replay;
 mod run_folder;
 mod schemas;
 mod sweep;
+mod view;
 
 pub use program::{Folder, GOOD, Said, cpdmp};

@@ -4,10 +4,10 @@ use nalgebra::Isometry3;
 use rerun::{Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
 
 use super::convert;
-use super::entity_path::{OBJECT, OBJECT_SHAPE};
+use super::entity_path::{Entity, OBJECT, OBJECT_SHAPE, Timeline};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{Experiment, StepRecord};
-use crate::world::{Object, ObjectKind, ObjectPart, PartShape, fixed_parts, object_parts, support_height_m};
+use crate::world::{Object, ObjectKind, ObjectPart, Parameters, PartShape, fixed_parts, object_parts, support_height_m};
 
 /// Logs every object: its shapes, and its pose over time.
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
@@ -18,18 +18,52 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
             poses = vec![object.pose(&experiment.parameters, support)];
         }
         recorder.poses(OBJECT.of(&[&object.name]), &poses)?;
-        log_shapes(recorder, &object.name, color(object), &object_parts(object, &experiment.parameters))?;
-        let fixed = fixed_parts(object);
-        if !fixed.is_empty() {
-            let name = format!("{}_walls", object.name);
-            recorder.poses(OBJECT.of(&[&name]), &[object.pose(&experiment.parameters, support)])?;
-            log_shapes(recorder, &name, color(object), &fixed)?;
-        }
+        log_shapes(recorder, None, &OBJECT_SHAPE, object, &experiment.parameters)?;
+        let pose = object.pose(&experiment.parameters, support);
+        log_fixed(recorder, None, (&OBJECT, &OBJECT_SHAPE), object, &pose)?;
     }
     Ok(())
 }
 
-fn log_shapes(recorder: &Recorder, name: &str, color: Color, parts: &[ObjectPart]) -> Result<(), Fault> {
+/// From when on something is logged; none: at all times.
+pub(super) type From = Option<(Timeline, f64)>;
+
+/// Logs what an object looks like in a setting.
+pub(super) fn log_shapes(
+    recorder: &Recorder,
+    when: From,
+    entity: &Entity,
+    object: &Object,
+    parameters: &Parameters,
+) -> Result<(), Fault> {
+    log_parts(recorder, when, (entity, &object.name), color(object), &object_parts(object, parameters))
+}
+
+/// Logs the parts of a moving object that stand still, as an object of their own at `pose`.
+pub(super) fn log_fixed(
+    recorder: &Recorder,
+    when: From,
+    (place, shape): (&Entity, &Entity),
+    object: &Object,
+    pose: &Isometry3<f64>,
+) -> Result<(), Fault> {
+    let parts = fixed_parts(object);
+    if parts.is_empty() {
+        return Ok(());
+    }
+    let name = format!("{}_fixed", object.name);
+    let at = convert::transform(pose);
+    recorder.from(when, place.of(&[&name]), &at)?;
+    log_parts(recorder, when, (shape, &name), color(object), &parts)
+}
+
+fn log_parts(
+    recorder: &Recorder,
+    when: From,
+    (entity, name): (&Entity, &str),
+    color: Color,
+    parts: &[ObjectPart],
+) -> Result<(), Fault> {
     let (mut boxes, mut balls, mut cylinders, mut bars) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for part in parts {
         let pose = part.object_from_part;
@@ -52,13 +86,13 @@ fn log_shapes(recorder: &Recorder, name: &str, color: Color, parts: &[ObjectPart
             .with_quaternions(boxes.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[name, "boxes"]), &solid)?;
+        recorder.from(when, entity.of(&[name, "boxes"]), &solid)?;
     }
     if !balls.is_empty() {
         let solid = Ellipsoids3D::from_centers_and_radii(balls.iter().map(|b| b.0), balls.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[name, "balls"]), &solid)?;
+        recorder.from(when, entity.of(&[name, "balls"]), &solid)?;
     }
     if !cylinders.is_empty() {
         let solid = Cylinders3D::from_lengths_and_radii(cylinders.iter().map(|c| c.3), cylinders.iter().map(|c| c.2))
@@ -66,7 +100,7 @@ fn log_shapes(recorder: &Recorder, name: &str, color: Color, parts: &[ObjectPart
             .with_quaternions(cylinders.iter().map(|c| c.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[name, "cylinders"]), &solid)?;
+        recorder.from(when, entity.of(&[name, "cylinders"]), &solid)?;
     }
     if !bars.is_empty() {
         let solid = Capsules3D::from_lengths_and_radii(bars.iter().map(|b| b.3), bars.iter().map(|b| b.2))
@@ -74,7 +108,7 @@ fn log_shapes(recorder: &Recorder, name: &str, color: Color, parts: &[ObjectPart
             .with_quaternions(bars.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[name, "bars"]), &solid)?;
+        recorder.from(when, entity.of(&[name, "bars"]), &solid)?;
     }
     Ok(())
 }
