@@ -26,23 +26,17 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
 }
 
 /// From when on something is logged; none: at all times.
-pub(super) type From = Option<(Timeline, f64)>;
+pub(super) type Since = Option<(Timeline, f64)>;
 
 /// Logs what an object looks like in a setting.
-pub(super) fn log_shapes(
-    recorder: &Recorder,
-    when: From,
-    entity: &Entity,
-    object: &Object,
-    parameters: &Parameters,
-) -> Result<(), Fault> {
+pub(super) fn log_shapes(recorder: &Recorder, when: Since, entity: &Entity, object: &Object, parameters: &Parameters) -> Result<(), Fault> {
     log_parts(recorder, when, (entity, &object.name), color(object), &object_parts(object, parameters))
 }
 
 /// Logs the parts of a moving object that stand still, as an object of their own at `pose`.
 pub(super) fn log_fixed(
     recorder: &Recorder,
-    when: From,
+    when: Since,
     (place, shape): (&Entity, &Entity),
     object: &Object,
     pose: &Isometry3<f64>,
@@ -57,13 +51,7 @@ pub(super) fn log_fixed(
     log_parts(recorder, when, (shape, &name), color(object), &parts)
 }
 
-fn log_parts(
-    recorder: &Recorder,
-    when: From,
-    (entity, name): (&Entity, &str),
-    color: Color,
-    parts: &[ObjectPart],
-) -> Result<(), Fault> {
+fn log_parts(recorder: &Recorder, when: Since, (entity, name): (&Entity, &str), color: Color, parts: &[ObjectPart]) -> Result<(), Fault> {
     let (mut boxes, mut balls, mut cylinders, mut bars) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for part in parts {
         let pose = part.object_from_part;
