@@ -1,11 +1,14 @@
 //! The command line as typed.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::learning_args::{Generate, Inspect, Learn};
 use super::sweep_args::{MergeArguments, SweepArguments};
+use super::view::View;
+use super::viewer::Viewer;
 
 /// A physics testbed for Compliant Parametric Dynamic Movement Primitives.
 ///
@@ -24,7 +27,7 @@ pub(super) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Teach, learn, execute, judge and record: one run folder per scenario
-    Run(Paths),
+    Run(Run),
     /// Run without recording or display and judge: what a continuous integration calls
     Check(Check),
     /// Check scenarios and what they need, without simulating: all faults at once
@@ -35,6 +38,10 @@ pub(super) enum Command {
     Generate(Generate),
     /// Say what a skill, a dataset, a run folder or a robot's file holds
     Inspect(Inspect),
+    /// Show the recording of a run in the rerun viewer
+    View(View),
+    /// Bring files of an older version of the program to this one's
+    Migrate(Files),
     /// Run a scenario again and again with other values of its keys: one table, one row per run
     Sweep(SweepArguments),
     /// Run a run again and compare its state hashes; with --set, say where another run parts from it
@@ -55,12 +62,35 @@ pub(super) enum Command {
     Man,
 }
 
+/// What is run, and who watches.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    #[command(flatten)]
+    pub scenarios: Paths,
+    /// Show the recording in the rerun viewer as soon as it is there; a viewer that is missing changes nothing about the run
+    #[arg(long, env = "CPDMP_VIEWER")]
+    pub viewer: bool,
+    #[command(flatten)]
+    pub with: Viewer,
+}
+
 /// Scenarios.
 #[derive(Debug, Args)]
 pub(super) struct Paths {
     /// Scenario files, folders of them, or patterns with `*` and `?` in the file name
     #[arg(required = true, value_name = "SCENARIO")]
     pub paths: Vec<PathBuf>,
+}
+
+/// Files that may be of an older version.
+#[derive(Debug, Args)]
+pub(super) struct Files {
+    /// Scenarios and lists of datasets, which are brought to this version; skills and other JSON files, which are only looked at
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Say what would be changed, and change nothing
+    #[arg(long)]
+    pub dry_run: bool,
 }
 
 /// A run that is over.
@@ -160,6 +190,10 @@ pub(super) struct Global {
     /// Use this many threads; the result does not depend on it
     #[arg(long, global = true, env = "CPDMP_JOBS", value_name = "N", value_parser = threads)]
     pub jobs: Option<usize>,
+    /// End a run that takes longer than this many seconds with exit code 12: looked at before every step of the simulation, so that
+    /// learning is finished first; every scenario has its own
+    #[arg(long, global = true, env = "CPDMP_TIMEOUT", value_name = "S", value_parser = seconds)]
+    pub timeout: Option<Duration>,
     /// Print results for people, as JSON (one document per line), or of `check` as JUnit or as GitHub annotations
     #[arg(long, global = true, env = "CPDMP_FORMAT", value_enum, default_value = "human")]
     pub format: Printed,
@@ -220,6 +254,11 @@ pub(super) enum Colour {
     Always,
     /// Never.
     Never,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let limit = text.parse().ok().filter(|&seconds: &f64| seconds > 0.0).and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    limit.ok_or_else(|| "a number of seconds greater than 0".to_owned())
 }
 
 fn threads(text: &str) -> Result<usize, String> {

@@ -1,6 +1,7 @@
 //! `cpdmp check`: runs without recording or display and judges, for continuous integrations.
 
 use std::path::Path;
+use std::time::Duration;
 
 use rayon::prelude::*;
 
@@ -31,7 +32,7 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     let options = options(global);
     let checks = targets.par_iter().map(|target| {
         let checked = match target {
-            Target::Scenario(path) => simulated(path, &options, terminal),
+            Target::Scenario(path) => simulated(path, &options, global.timeout, terminal),
             Target::Run(run) => judged(run, "run", &run.join("steps.parquet"), &run.join("scenario.toml"), &options, terminal),
             Target::Trajectory(path, scene) => judged(path, "trajectory", path, scene, &options, terminal),
         };
@@ -50,8 +51,8 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     }
 }
 
-fn simulated(path: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
-    let clock = Clock::start();
+fn simulated(path: &Path, options: &LoadOptions, limit: Option<Duration>, terminal: &Terminal) -> Checked {
+    let clock = Clock::with_limit(limit);
     let name = path.display().to_string();
     match Scenario::load(path, options) {
         Err(invalid) => {

@@ -85,6 +85,7 @@ pub(super) fn of_learning(error: &LearningError) -> Outcome {
 pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
     match error {
         SimulationError::World(WorldError::Diverged { .. }) => Outcome::Diverged,
+        SimulationError::Stopped { .. } => Outcome::TimeLimit,
         SimulationError::Learning(error) => of_learning(error),
         SimulationError::Demonstrations(DemonstrationError::Io { .. } | DemonstrationError::Invalid(_))
         | SimulationError::Urdf(_)

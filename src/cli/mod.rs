@@ -23,6 +23,7 @@ mod list;
 mod load;
 mod man;
 mod merge;
+mod migrate;
 mod planar_files;
 mod progress;
 mod replay;
@@ -35,6 +36,8 @@ mod sweep_progress;
 mod sweep_text;
 mod terminal;
 mod validate;
+mod view;
+mod viewer;
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -66,12 +69,14 @@ fn dispatch(cli: &Cli) -> Outcome {
         _ = rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global();
     }
     let outcome = match &cli.command {
-        Command::Run(arguments) => run::run(&arguments.paths, &cli.global, &terminal),
+        Command::Run(arguments) => run::run(arguments, &cli.global, &terminal),
         Command::Check(arguments) => check::check(arguments, &cli.global, &terminal),
         Command::Validate(arguments) => validate::validate(&arguments.paths, &cli.global, &terminal),
         Command::Learn(arguments) => learn::learn(arguments, &cli.global, &terminal),
         Command::Generate(arguments) => generate::generate(arguments, &cli.global, &terminal),
         Command::Inspect(arguments) => inspect::inspect(&arguments.path, &terminal),
+        Command::View(arguments) => view::view(arguments, &terminal),
+        Command::Migrate(arguments) => migrate::migrate(&arguments.files, arguments.dry_run, &terminal),
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.global, &terminal),
         Command::Replay(arguments) => replay::replay(&arguments.folder, &cli.global, &terminal),
         Command::Merge(arguments) => merge::merge(arguments, &cli.global, &terminal),

@@ -1,7 +1,7 @@
 //! Where a run is: a bar on a terminal, lines in a log.
 
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -12,12 +12,13 @@ use crate::simulation::Progress;
 pub(super) struct Shown<'a> {
     terminal: &'a Terminal,
     bar: Mutex<Option<ProgressBar>>,
-    started: Instant,
+    clock: Clock,
 }
 
 impl<'a> Shown<'a> {
-    pub fn new(terminal: &'a Terminal) -> Self {
-        Self { terminal, bar: Mutex::new(None), started: Instant::now() }
+    /// For a run that may take that long.
+    pub fn new(terminal: &'a Terminal, limit: Option<Duration>) -> Self {
+        Self { terminal, bar: Mutex::new(None), clock: Clock::with_limit(limit) }
     }
 
     fn current(&self) -> Option<ProgressBar> {
@@ -41,7 +42,7 @@ impl Progress for Shown<'_> {
                 bar.set_style(style.progress_chars("##-").tick_chars("|/-\\ "));
             }
             bar.set_prefix(name.to_owned());
-            bar.enable_steady_tick(std::time::Duration::from_millis(200));
+            bar.enable_steady_tick(Duration::from_millis(200));
             self.replace(Some(bar));
         }
     }
@@ -60,7 +61,11 @@ impl Progress for Shown<'_> {
     }
 
     fn elapsed_s(&self) -> f64 {
-        self.started.elapsed().as_secs_f64()
+        self.clock.elapsed_s()
+    }
+
+    fn may_go_on(&self) -> bool {
+        self.clock.may_go_on()
     }
 }
 
@@ -71,11 +76,19 @@ impl Drop for Shown<'_> {
 }
 
 /// Progress of one of many runs at the same time: nothing is shown of it but how long it takes.
-pub(super) struct Clock(Instant);
+pub(super) struct Clock {
+    started: Instant,
+    limit: Option<Duration>,
+}
 
 impl Clock {
     pub fn start() -> Self {
-        Self(Instant::now())
+        Self::with_limit(None)
+    }
+
+    /// For a run that may take that long.
+    pub fn with_limit(limit: Option<Duration>) -> Self {
+        Self { started: Instant::now(), limit }
     }
 }
 
@@ -84,6 +97,10 @@ impl Progress for Clock {
     fn advance(&self, _steps: u64) {}
     fn note(&self, _text: &str) {}
     fn elapsed_s(&self) -> f64 {
-        self.0.elapsed().as_secs_f64()
+        self.started.elapsed().as_secs_f64()
+    }
+
+    fn may_go_on(&self) -> bool {
+        self.limit.is_none_or(|limit| self.started.elapsed() < limit)
     }
 }

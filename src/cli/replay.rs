@@ -41,7 +41,7 @@ pub(super) fn replay(folder: &Path, global: &Global, terminal: &Terminal) -> Out
             return Failure::new(Outcome::InvalidInput, [text]).because(diagnostics).tell(terminal);
         }
     };
-    let progress = Shown::new(terminal);
+    let progress = Shown::new(terminal, global.timeout);
     let run = judged_run(&scenario, &progress);
     let Some(repeated) = Repeated::of(&run, &scenario) else {
         drop(progress);

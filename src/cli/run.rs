@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{Format, Global};
+use super::args::{Format, Global, Run};
 use super::files;
 use super::judged_run::judged_run;
 use super::load::{Ready, load_all};
@@ -13,8 +13,8 @@ use crate::report::{Outcome, RunFolder, text};
 use crate::scenario::Work;
 
 /// Runs every scenario; all are checked before the first one begins. The worst outcome counts.
-pub(super) fn run(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Outcome {
-    let ready = match select(paths, terminal).and_then(|files| load_all(&files, global, terminal)) {
+pub(super) fn run(arguments: &Run, global: &Global, terminal: &Terminal) -> Outcome {
+    let ready = match select(&arguments.scenarios.paths, terminal).and_then(|files| load_all(&files, global, terminal)) {
         Ok(ready) => ready,
         Err(outcome) => return outcome,
     };
@@ -26,7 +26,7 @@ pub(super) fn run(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Ou
         ));
         return Outcome::Usage;
     }
-    let outcomes = ready.iter().zip(&folders).map(|(one, folder)| run_one(one, folder, global, terminal));
+    let outcomes = ready.iter().zip(&folders).map(|(one, folder)| run_one(one, folder, arguments, global, terminal));
     outcomes.max().unwrap_or(Outcome::NothingSelected)
 }
 
@@ -39,7 +39,7 @@ fn folder(out: Option<&Path>, scenarios: usize, work: &Work) -> PathBuf {
     }
 }
 
-fn run_one(ready: &Ready, target: &Path, global: &Global, terminal: &Terminal) -> Outcome {
+fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, terminal: &Terminal) -> Outcome {
     // Whether the output can be written is known before a minute is spent on it.
     let folder = match RunFolder::open(target) {
         Ok(folder) => folder,
@@ -50,7 +50,7 @@ fn run_one(ready: &Ready, target: &Path, global: &Global, terminal: &Terminal) -
     };
     let started = std::time::SystemTime::now();
     terminal.note(&format!("{}: {}\n", ready.scenario.work.name(), ready.path.display()));
-    let progress = Shown::new(terminal);
+    let progress = Shown::new(terminal, global.timeout);
     let mut run = judged_run(&ready.scenario, &progress);
     if !run.wants_folder() {
         drop(progress);
@@ -70,12 +70,26 @@ fn run_one(ready: &Ready, target: &Path, global: &Global, terminal: &Terminal) -
     match written {
         Ok(place) => {
             terminal.note(&format!("written to {}\n", place.display()));
+            if arguments.viewer {
+                show(&place, arguments, terminal);
+            }
             run.report.outcome
         }
         Err(error) => {
             terminal.error(&format!("error: {error}\n"));
             run.report.outcome.max(error.outcome())
         }
+    }
+}
+
+/// Shows the recording of a run that is over. That there is no viewer, or nothing to show, is worth a line and no more.
+fn show(folder: &Path, arguments: &Run, terminal: &Terminal) {
+    let recording = folder.join("recording.rrd");
+    if !recording.is_file() {
+        return terminal.note("there is no recording to show\n");
+    }
+    if let Err(message) = arguments.with.show(&recording) {
+        terminal.note(&format!("{message}\n"));
     }
 }
 

@@ -37,7 +37,7 @@ pub(super) fn validate(paths: &[PathBuf], global: &Global, terminal: &Terminal) 
     let options = options(global);
     let check = |path: &PathBuf| {
         let checked = checked(path, Scenario::load(path, &options).map_err(|invalid| invalid.0));
-        tell(&checked, global, terminal);
+        tell(&checked, terminal);
         checked.outcome
     };
     files.iter().map(check).max().unwrap_or(Outcome::NothingSelected)
@@ -83,7 +83,7 @@ pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outco
     }
 }
 
-fn tell(checked: &Checked<'_>, global: &Global, terminal: &Terminal) {
+fn tell(checked: &Checked<'_>, terminal: &Terminal) {
     if terminal.format == Format::Json {
         return terminal.json(checked);
     }
@@ -91,9 +91,7 @@ fn tell(checked: &Checked<'_>, global: &Global, terminal: &Terminal) {
     if let Some(error) = &checked.error {
         terminal.error(&format!("error: {error}\n"));
     }
-    if global.verbose > 0 && !checked.warnings.is_empty() {
-        terminal.note(&(checked.warnings.join("\n") + "\n"));
-    }
+    checked.warnings.iter().for_each(|warning| terminal.note(&format!("{warning}\n")));
     let faults = checked.diagnostics.len() + usize::from(checked.error.is_some());
     let verdict = match (checked.outcome, faults) {
         (Outcome::Passed, _) => "ok".to_owned(),

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::arm_run::{ArmRun, kind_of};
 use super::chart::{Axis, Chart, Figure};
 use super::mark::{Anchor, Mark};
-use crate::learning::cpdmp::Statistic;
+use crate::learning::cpdmp::{Statistic, spread_unit};
 use crate::palette::BLACK;
 use crate::palette::meaning::{COMPLIES, EXECUTED, EXPECTED, MEASURED, PERSON, PLANNED};
 use crate::simulation::StepRecord;
@@ -40,7 +40,7 @@ fn spread(run: &ArmRun) -> Chart {
         Statistic::Conditional => "Spread of each state: its covariance given the phase",
         Statistic::BetweenDemonstration => "Spread of each state: how far demonstrations disagree",
     };
-    let mut chart = panel(run, statistic, "spread (mm)");
+    let mut chart = panel(run, statistic, &format!("spread ({})", spread_unit(&run.skill.motion.columns)));
     for state in &run.states {
         let (Some([from, to]), Some(value_m2)) = (state.active, compliance.values_m2.get(state.state)) else { continue };
         let (color, legend) = kind_of(state.beta);
@@ -69,7 +69,7 @@ fn number_states(run: &ArmRun, chart: &mut Chart) {
     }
 }
 
-/// The standard deviation (mm) of a variance (m^2).
+/// The standard deviation (thousandths of a unit) of a variance (its square).
 fn millimetres(value_m2: f64) -> f64 {
     value_m2.max(0.0).sqrt() * 1e3
 }

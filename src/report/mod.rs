@@ -41,7 +41,7 @@ pub use learn_report::LearnReport;
 pub use lock::{Lock, LockError, lock};
 pub use manifest::{FileHash, Host, Manifest, hash_file};
 pub use outcome::Outcome;
-pub use output_file::{Replaceable, prepare_file, replace_file};
+pub use output_file::{Replaceable, prepare_file, replace_file, rewrite_file};
 pub use robot_section::{JointLine, RobotSection};
 pub use run_folder::{OutputError, RunFolder, write_file};
 pub use run_report::{

@@ -14,6 +14,8 @@ pub enum Outcome {
     CriteriaNotMet,
     /// The simulation left the finite numbers.
     Diverged,
+    /// The run took longer than it may.
+    TimeLimit,
     /// A repetition is not the run that it repeats.
     ReplayDiffers,
     /// No skill could be learned.
@@ -34,10 +36,11 @@ pub enum Outcome {
 
 impl Outcome {
     /// Every outcome, from the mildest to the worst: a command that meets several ends with the worst.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Passed,
         Self::CriteriaNotMet,
         Self::Diverged,
+        Self::TimeLimit,
         Self::ReplayDiffers,
         Self::LearningFailed,
         Self::NothingSelected,
@@ -59,6 +62,7 @@ impl Outcome {
             Self::NothingSelected => 5,
             Self::CriteriaNotMet => 10,
             Self::Diverged => 11,
+            Self::TimeLimit => 12,
             Self::ReplayDiffers => 13,
             Self::OutputFailed => 20,
             Self::OutputBusy => 21,
@@ -71,6 +75,7 @@ impl Outcome {
             Self::Passed => "passed",
             Self::CriteriaNotMet => "criteria_not_met",
             Self::Diverged => "diverged",
+            Self::TimeLimit => "time_limit",
             Self::ReplayDiffers => "replay_differs",
             Self::LearningFailed => "learning_failed",
             Self::NothingSelected => "nothing_selected",
@@ -93,6 +98,7 @@ impl Outcome {
             Self::Diverged => {
                 "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help"
             }
+            Self::TimeLimit => "a run took longer than --timeout allows: the message says how far it came",
             Self::ReplayDiffers => {
                 "the repetition of a run is not the same to the last bit: the message says from where on, and what explains it"
             }

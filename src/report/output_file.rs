@@ -64,6 +64,22 @@ pub fn replace_file(path: &Path, content: &[u8], replaceable: Replaceable) -> Re
     write().map(|_| ()).map_err(OutputError::io(path))
 }
 
+/// Replaces the content of a file that is there, beside its place first, and leaves its permissions as they are. A link is followed.
+///
+/// # Errors
+/// When the file is not there, or the file system refuses.
+pub fn rewrite_file(path: &Path, content: &[u8]) -> Result<(), OutputError> {
+    let rewrite = || {
+        let place = path.canonicalize()?;
+        let mut beside = tempfile::Builder::new().tempfile_in(folder(&place))?;
+        beside.write_all(content)?;
+        beside.as_file().set_permissions(place.metadata()?.permissions())?;
+        beside.as_file().sync_all()?;
+        beside.persist(&place).map_err(|error| error.error)
+    };
+    rewrite().map(|_| ()).map_err(OutputError::io(path))
+}
+
 fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

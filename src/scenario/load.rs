@@ -155,7 +155,7 @@ fn only_latest(tree: &mut Node, keys: [&str; 2], sources: &Sources) {
 }
 
 /// A file for a later program is refused before its keys are looked at: they may mean something else there.
-fn newer_version(tree: &Node) -> Option<Fault> {
+pub(super) fn newer_version(tree: &Node) -> Option<Fault> {
     let node = tree.get("schema_version")?;
     let Value::Integer(version) = node.value else { return None };
     (version > SCHEMA_VERSION).then(|| {

@@ -42,6 +42,14 @@ pub enum SimulationError {
     /// Nothing could be learned.
     #[error(transparent)]
     Learning(#[from] LearningError),
+    /// Whoever listens to the run did not let it go on.
+    #[error("the time limit was reached {time_s:.3} s into the simulated time of the phase `{phase}`: allow more, or ask for less")]
+    Stopped {
+        /// `teach`, `replay` or `execute`.
+        phase: &'static str,
+        /// How far the world was (s).
+        time_s: f64,
+    },
     /// The scene cannot be as described.
     #[error("{0}: put it on a table, or give the table another size")]
     Scene(String),

@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use super::person::helper;
 use super::setup::Setup;
-use super::step_loop::{Published, StepLoop};
-use super::{FinalObject, SimulationError, StepRecord};
+use super::step_loop::{Phase, Published, StepLoop};
+use super::{FinalObject, Progress, SimulationError, StepRecord};
 use crate::control::{Controller, SkillController};
 use crate::learning::{Skill, SkillExecution};
 use crate::world::{Clearance, ContactEpisode, StateTrace, World};
@@ -27,7 +27,7 @@ pub(super) struct Executed {
 const EXECUTION_RUN: u64 = u64::MAX;
 
 /// Executes `skill` in the experiment's setting.
-pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, SimulationError> {
+pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> Result<Executed, SimulationError> {
     let experiment = &setup.experiment;
     let query = experiment.question();
     let execution = SkillExecution::new(skill, &query)?;
@@ -57,6 +57,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill) -> Result<Executed, Simulati
         sensors: &mut setup.sensors(EXECUTION_RUN),
         idle: hold.as_mut(),
         step_s,
+        phase: Phase { name: "execute", progress },
     };
     run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("execute", 0), steps);
     let steps = run.run_while(

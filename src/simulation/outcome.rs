@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{StepRecord, WorldTrace};
+use super::{LessonRecord, StepRecord, WorldTrace};
 use crate::demonstration::{Dataset, Trajectory};
 use crate::learning::{LearningReport, Skill};
 use crate::robot::{Finding, RobotModel};
@@ -17,6 +17,8 @@ pub struct RunOutcome {
     pub robot_warnings: Vec<Finding>,
     /// The demonstrations, with their replayed wrenches.
     pub dataset: Dataset,
+    /// What the lessons looked like; none when the demonstrations were read.
+    pub lessons: Vec<LessonRecord>,
     /// The learned skill.
     pub skill: Skill,
     /// How learning went.

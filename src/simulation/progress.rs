@@ -10,6 +10,10 @@ pub trait Progress: Sync {
     fn note(&self, text: &str);
     /// Seconds on the listener's clock, for saying how long things took: this room has none.
     fn elapsed_s(&self) -> f64;
+    /// Whether the run may go on; asked before every engine step. A run that may not ends with [`super::SimulationError::Stopped`].
+    fn may_go_on(&self) -> bool {
+        true
+    }
 }
 
 /// Nobody listens.

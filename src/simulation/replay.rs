@@ -1,10 +1,10 @@
 //! Replay: the arm repeats a demonstration alone; the wrench it then measures becomes the demonstration's force profile.
 
-use super::SimulationError;
 use super::person::Nobody;
 use super::setup::Setup;
-use super::step_loop::StepLoop;
+use super::step_loop::{Phase, StepLoop};
 use super::teaching::Lesson;
+use super::{Progress, SimulationError};
 use crate::control::{Controller, TrajectoryController};
 use crate::world::StateTrace;
 
@@ -21,7 +21,7 @@ pub(super) struct Replay {
 }
 
 /// Replays `lesson` in the setting in which it was led.
-pub(super) fn replay(setup: &Setup, lesson: &Lesson) -> Result<Replay, SimulationError> {
+pub(super) fn replay(setup: &Setup, lesson: &Lesson, progress: &dyn Progress) -> Result<Replay, SimulationError> {
     let step_s = setup.experiment.physics.step_s;
     let mut world = setup.world(&lesson.parameters, &lesson.start_posture, false)?;
     let mut controller = TrajectoryController::new(lesson.path.clone(), setup.tracker(), setup.observer());
@@ -37,6 +37,7 @@ pub(super) fn replay(setup: &Setup, lesson: &Lesson) -> Result<Replay, Simulatio
         sensors: &mut setup.sensors(2 * lesson.number + 1),
         idle: hold.as_mut(),
         step_s,
+        phase: Phase { name: "replay", progress },
     };
     let kept = &setup.experiment.trace;
     run.world.trace(kept.every_steps, kept.detail_of("replay", lesson.number), steps);

@@ -7,7 +7,7 @@ use super::execution::execute;
 use super::replay::{Replay, replay};
 use super::setup::Setup;
 use super::teaching::{Lesson, demonstration, settings_of, teach};
-use super::{DemonstrationSource, Experiment, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan, WorldTrace};
+use super::{DemonstrationSource, Experiment, LessonRecord, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan, WorldTrace};
 use crate::demonstration::{Dataset, Demonstration, ParameterSource};
 use crate::learning::{self, Learned, Skill};
 
@@ -58,7 +58,7 @@ pub fn perform(
     let question = setup.experiment.question();
     let plan = setup.with_place(learning::generate(&learned.skill, &question, 1.0 / setup.experiment.log_rate_hz, 1.0)?)?;
     progress.phase("execute", 0);
-    let executed = execute(setup, &learned.skill)?;
+    let executed = execute(setup, &learned.skill, progress)?;
     let mut report = learned.report.clone();
     if setup.experiment.trace.every_steps > 0 {
         history.traces.push(WorldTrace::of_text("learn", "skill", &learned.skill.to_json()?));
@@ -72,6 +72,7 @@ pub fn perform(
         robot: setup.robot.clone(),
         robot_warnings: setup.warnings.clone(),
         dataset: dataset.clone(),
+        lessons: std::mem::take(&mut history.lessons),
         skill: learned.skill.clone(),
         learning: report,
         plan,
@@ -105,7 +106,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
         .par_iter()
         .enumerate()
         .map(|(number, parameters)| {
-            let lesson = teach(setup, plan, parameters, number as u64)?;
+            let lesson = teach(setup, plan, parameters, number as u64, progress)?;
             progress.advance(lesson.steps);
             Ok(lesson)
         })
@@ -119,7 +120,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     let replays: Vec<(Demonstration, Replay)> = lessons
         .par_iter()
         .map(|lesson| {
-            let replayed = replay(setup, lesson)?;
+            let replayed = replay(setup, lesson, progress)?;
             progress.advance(replayed.steps);
             Ok((demonstration(setup, lesson, &replayed.wrench)?, replayed))
         })
@@ -128,6 +129,7 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     history.close("replay", replays.iter().map(|(_, replayed)| replayed.steps).sum(), started, progress);
     let (demonstrations, replays): (Vec<Demonstration>, Vec<Replay>) = replays.into_iter().unzip();
     history.traces.extend((0..).zip(replays).filter_map(|(number, replayed)| WorldTrace::of("replay", number, replayed.trace)));
+    history.lessons = lessons.into_iter().map(seen).collect();
     Ok(Dataset {
         motion: setup.taught_motion(),
         wrench: ["fx_n", "fy_n", "fz_n"].map(String::from).to_vec(),
@@ -136,11 +138,16 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     })
 }
 
-/// What has been simulated so far: the phases, and the hashes of all worlds in a fixed order.
+fn seen(lesson: Lesson) -> LessonRecord {
+    LessonRecord { name: lesson.name, parameters: lesson.parameters, looks: lesson.looks }
+}
+
+/// What has been simulated so far: the phases, the hashes of all worlds in a fixed order, and what the lessons looked like.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     phases: Vec<PhaseSummary>,
     hashes: Vec<u64>,
+    lessons: Vec<LessonRecord>,
     traces: Vec<WorldTrace>,
 }
 

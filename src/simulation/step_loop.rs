@@ -1,7 +1,7 @@
 //! The step loop: sense, decide, act, advance, publish. Teaching, replay and execution are runs of this one loop.
 
 use super::person::{Person, applied};
-use super::{AppliedForce, SimulationError};
+use super::{AppliedForce, Progress, SimulationError};
 use crate::control::{Command, Controller, HoldPosture, Observation};
 use crate::robot::JointCommand;
 use crate::world::{EffortSensors, HandWrench, World};
@@ -15,6 +15,20 @@ pub(super) struct StepLoop<'a, C: Controller> {
     pub idle: Option<&'a mut HoldPosture>,
     /// Step of control and engine (s).
     pub step_s: f64,
+    pub phase: Phase<'a>,
+}
+
+/// Which phase of a run the loop is in, and who says whether it may go on.
+#[derive(Clone, Copy)]
+pub(super) struct Phase<'a> {
+    pub name: &'static str,
+    pub progress: &'a dyn Progress,
+}
+
+impl Phase<'_> {
+    fn goes_on(self, world: &World) -> Result<(), SimulationError> {
+        if self.progress.may_go_on() { Ok(()) } else { Err(SimulationError::Stopped { phase: self.name, time_s: world.time_s() }) }
+    }
 }
 
 /// What a sink sees after each step.
@@ -54,6 +68,7 @@ impl<C: Controller> StepLoop<'_, C> {
         let mut command = Command::idle(joints);
         let mut idle = IdleArm::new(self.world.idle_joints());
         for step in 1..=steps {
+            self.phase.goes_on(self.world)?;
             sense(self.world, self.sensors, &mut observation);
             before(self.controller, self.world);
             self.controller.decide(&observation, &mut command);

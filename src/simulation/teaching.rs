@@ -6,8 +6,8 @@ use super::guide_path::GuidePath;
 use super::person::Teacher;
 use super::setup::Setup;
 use super::space::joint_columns;
-use super::step_loop::StepLoop;
-use super::{SimulationError, TeachingPlan};
+use super::step_loop::{Phase, Published, StepLoop};
+use super::{LOOKS_HZ, LessonLook, Progress, SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
 use crate::demonstration::{Demonstration, Trajectory};
 use crate::math;
@@ -28,6 +28,8 @@ pub(super) struct Lesson {
     pub path: ToolPath,
     /// The same as joint angles (rad).
     pub joints: Vec<Vec<f64>>,
+    /// What somebody who stood beside it saw.
+    pub looks: Vec<LessonLook>,
     /// Hash of the world's states.
     pub state_hash: u64,
     /// What was kept of them.
@@ -44,7 +46,13 @@ pub(super) fn settings_of(plan: &TeachingPlan, base: &Parameters) -> Vec<Paramet
 }
 
 /// Teaches demonstration `number` in the setting `parameters`.
-pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters, number: u64) -> Result<Lesson, SimulationError> {
+pub(super) fn teach(
+    setup: &Setup,
+    plan: &TeachingPlan,
+    parameters: &Parameters,
+    number: u64,
+    progress: &dyn Progress,
+) -> Result<Lesson, SimulationError> {
     let experiment = &setup.experiment;
     let mut variation = math::stream(experiment.seed, "human", number);
     let path = GuidePath::new(plan, &experiment.objects, parameters, &mut variation);
@@ -58,6 +66,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
     let every = setup.steps(1.0 / plan.record_rate_hz).max(1);
     let path_so_far = ToolPath { times_s: Vec::new(), poses: Vec::new(), gripper: Vec::new() };
     let mut recorder = PathRecorder { arm: setup.arm(), path: path_so_far, joints: Vec::new() };
+    let (mut looks, look_every) = (Vec::new(), setup.steps(1.0 / LOOKS_HZ).max(1));
     let mut hold = setup.hold();
     let mut run = StepLoop {
         world: &mut world,
@@ -66,6 +75,7 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         sensors: &mut setup.sensors(2 * number),
         idle: hold.as_mut(),
         step_s: experiment.physics.step_s,
+        phase: Phase { name: "teach", progress },
     };
     run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("teach", number), steps + 1);
     run.run(
@@ -74,6 +84,9 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         |now| {
             if now.world.step().is_multiple_of(every) {
                 recorder.record(now.observation.time_s, &now.observation.position, now.command.gripper);
+            }
+            if now.world.step().is_multiple_of(look_every) {
+                looks.push(look(now, experiment.objects.len()));
             }
         },
     )?;
@@ -85,10 +98,24 @@ pub(super) fn teach(setup: &Setup, plan: &TeachingPlan, parameters: &Parameters,
         start_posture,
         path: recorder.path,
         joints: recorder.joints,
+        looks,
         state_hash: world.state_hash(),
         trace: world.take_trace(),
         steps: steps + 1,
     })
+}
+
+fn look(now: &Published<ZeroGravity>, objects: usize) -> LessonLook {
+    let mut bodies = Vec::new();
+    now.world.robot_poses(&mut bodies);
+    LessonLook {
+        time_s: now.world.time_s(),
+        tool: now.world.tool_pose().translation.vector,
+        gripper_command: now.command.gripper,
+        human: now.hand,
+        bodies,
+        objects: (0..objects).map(|index| now.world.object_pose(index)).collect(),
+    }
 }
 
 /// Joins what was led with the wrench (6 numbers per sample) measured when it was replayed.

@@ -1,8 +1,9 @@
 //! The engine and its settings: double precision, deterministic, fixed step.
 
-use rapier3d_f64::prelude::{Group, InteractionGroups, InteractionTestMode, PhysicsWorld, Vector};
+use rapier3d_f64::prelude::{Group, InteractionGroups, InteractionTestMode, PhysicsWorld, RigidBodyHandle, Vector};
 
 use super::WorldError;
+use super::parts::Parts;
 
 /// The engine's step.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,16 +46,23 @@ pub(super) fn engine(settings: &PhysicsSettings) -> PhysicsWorld {
 }
 
 /// Advances the engine by one step; an error when a body left the finite numbers.
-pub(super) fn step(engine: &mut PhysicsWorld, step_number: u64) -> Result<(), WorldError> {
+pub(super) fn step(engine: &mut PhysicsWorld, parts: &Parts, step_number: u64) -> Result<(), WorldError> {
     engine.step();
     match engine.quarantine().bodies().first() {
         None => Ok(()),
-        Some(handle) => Err(WorldError::Diverged {
+        Some(&handle) => Err(WorldError::Diverged {
             step: step_number,
             time_s: step_number as f64 * engine.integration_parameters.dt,
-            body: format!("{handle:?}"),
+            body: name_of(engine, parts, handle),
         }),
     }
+}
+
+/// What reports call a body: the name of the first part that can be touched of it.
+fn name_of(engine: &PhysicsWorld, parts: &Parts, handle: RigidBodyHandle) -> String {
+    let colliders = engine.bodies.get(handle).map_or(&[][..], |body| body.colliders());
+    let named = colliders.iter().find_map(|&collider| Some(parts.of(engine.colliders.get(collider)?.user_data)?.1.name.as_str()));
+    named.map_or_else(|| format!("number {}, which has no shape,", handle.into_raw_parts().0), |name| format!("`{name}`"))
 }
 
 /// Who may touch whom.

@@ -146,7 +146,7 @@ impl World {
         }
         self.apply_hand();
         self.step += 1;
-        physics::step(&mut self.engine, self.step)?;
+        physics::step(&mut self.engine, &self.parts, self.step)?;
         self.robot.working.settle_efforts(&self.engine);
         self.read_joints();
         let time_s = self.time_s();

@@ -78,7 +78,7 @@ mod tests {
 
         let mut go = |x_m: f64, step: u32| {
             engine.bodies.get_mut(body).expect("there").set_next_kinematic_position(Pose::translation(x_m, 0.0, 0.0));
-            physics::step(&mut engine, u64::from(step)).expect("finite");
+            physics::step(&mut engine, &parts, u64::from(step)).expect("finite");
             watch.follow(&engine, &[], (f64::from(step - 1) * 1e-3, f64::from(step) * 1e-3));
             (watch.book.touches.clone(), watch.book.smallest[0].clone())
         };

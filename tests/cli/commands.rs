@@ -98,7 +98,7 @@ fn list_names_scenarios_with_what_they_show() {
 fn explain_knows_every_exit_code() {
     let said = good().call(&["explain"]);
     assert_eq!(said.code, Some(0));
-    for code in ["0", "1", "2", "3", "4", "5", "10", "11", "13", "20", "21"] {
+    for code in ["0", "1", "2", "3", "4", "5", "10", "11", "12", "13", "20", "21"] {
         assert!(said.stdout.lines().any(|line| line.trim_start().starts_with(&format!("{code} "))), "{code}:\n{}", said.stdout);
     }
     let said = good().call(&["explain", "unknown_key"]);

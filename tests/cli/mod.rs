@@ -3,9 +3,11 @@
 mod check;
 mod check_motion;
 mod commands;
+mod examples;
 mod generate;
 mod inspect;
 mod learn;
+mod migrate;
 mod overrides;
 mod planar_run;
 mod program;
@@ -14,5 +16,6 @@ mod replay;
 mod run_folder;
 mod schemas;
 mod sweep;
+mod view;
 
 pub use program::{Folder, GOOD, Said, cpdmp};

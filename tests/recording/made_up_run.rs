@@ -5,7 +5,8 @@ use std::sync::LazyLock;
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::learning::phmm::PhmmSettings;
 use cpdmp::learning::{ExecutionSettings, LearningSettings, ShapingKind, generate, learn};
-use cpdmp::simulation::{AppliedForce, FinalObject, RunOutcome, StepRecord};
+use cpdmp::simulation::{AppliedForce, FinalObject, LessonLook, LessonRecord, RunOutcome, StepRecord};
+use cpdmp::world::{Clearance, Parameters};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3, Vector6};
 
 use crate::support::baxter;
@@ -50,8 +51,17 @@ fn learned(shaping: ShapingKind) -> RunOutcome {
     let robot = baxter();
     let names = ["table", "block_1", "block_2", "toy", "basket"];
     let objects = names.map(|name| FinalObject { name: name.into(), position: Point3::origin(), speed_m_per_s: 0.0 });
+    let clearance = Clearance {
+        a: "left_hand".into(),
+        b: "block_1".into(),
+        min_distance_m: 0.02,
+        time_s: 1.0,
+        point_a: Point3::origin(),
+        point_b: Point3::new(0.02, 0.0, 0.0),
+    };
     RunOutcome {
         steps: (0..STEPS).map(|i| record(i, robot.bodies.len(), names.len())).collect(),
+        lessons: vec![lesson(robot.bodies.len(), names.len()); 2],
         robot,
         robot_warnings: Vec::new(),
         dataset,
@@ -61,11 +71,31 @@ fn learned(shaping: ShapingKind) -> RunOutcome {
         human_peak_force_n: 15.0,
         goal: nalgebra::Vector3::zeros(),
         collisions: Vec::new(),
-        clearances: Vec::new(),
+        clearances: vec![clearance],
         phases: Vec::new(),
         state_hash: 0x1234,
         traces: Vec::new(),
         final_objects: objects.to_vec(),
+    }
+}
+
+/// A lesson of a second in which everything moves.
+fn lesson(bodies: usize, objects: usize) -> LessonRecord {
+    let look = |i: usize| {
+        let record = record(i, bodies, objects);
+        LessonLook {
+            time_s: 0.1 * i as f64,
+            tool: record.tool.translation.vector,
+            gripper_command: record.gripper_command,
+            human: AppliedForce { point: Point3::origin(), force: Vector3::new(3.0, 0.0, i as f64) },
+            bodies: record.bodies,
+            objects: record.objects,
+        }
+    };
+    LessonRecord {
+        name: "made_up".into(),
+        parameters: Parameters(vec![("block_height_m".into(), 0.2)]),
+        looks: (0..10).map(look).collect(),
     }
 }
 

@@ -106,6 +106,7 @@ fn events_tell_what_happened_in_order() {
     let found = texts(&chunks(&path), &entity_path::EVENTS, &rerun::TextLog::descriptor_text());
     let expected = [
         (0, "the skill starts, stiff"),
+        (20, "closest to block_1: left_hand at 20 mm"),
         (COMPLIES.start, "the arm complies from here (state 1)"),
         (HOLDS.start, "the person takes hold"),
         (CLOSED.start, "the gripper closes"),

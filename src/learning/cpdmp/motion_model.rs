@@ -93,6 +93,17 @@ impl MotionModel {
     }
 }
 
+/// The unit of a thousandth of the spatial columns, for showing the root of a statistic of theirs: `mm`, of joints `mrad`.
+#[must_use]
+pub fn spread_unit(columns: &[String]) -> &'static str {
+    let ends = |unit: &str| spatial_columns(columns).iter().all(|j| columns[*j].ends_with(unit));
+    match (ends("_m"), ends("_rad")) {
+        (true, _) => "mm",
+        (_, true) => "mrad",
+        _ => "1e-3 of the columns' units",
+    }
+}
+
 /// Indices of the columns in m, or of all when none is.
 pub(crate) fn spatial_columns(columns: &[String]) -> Vec<usize> {
     let metres: Vec<usize> = (0..columns.len()).filter(|j| columns[*j].ends_with("_m")).collect();

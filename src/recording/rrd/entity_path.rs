@@ -19,8 +19,15 @@ pub const STEP: Timeline = Timeline { name: "step", meaning: "number of the engi
 pub const PHASE: Timeline =
     Timeline { name: "phase", meaning: "elapsed fraction u = -ln(s)/alpha of the skill's duration, in ten-thousandths" };
 
+/// Time of the teaching.
+pub const TEACHING_TIME: Timeline =
+    Timeline { name: "teaching_time", meaning: "simulated time in which a person taught, one lesson after the other (ns)" };
+/// Time of the replay.
+pub const REPLAY_TIME: Timeline =
+    Timeline { name: "replay_time", meaning: "simulated time in which the demonstrations were replayed, one after the other (ns)" };
+
 /// All timelines.
-pub const TIMELINES: [Timeline; 3] = [SIM_TIME, STEP, PHASE];
+pub const TIMELINES: [Timeline; 5] = [SIM_TIME, STEP, PHASE, TEACHING_TIME, REPLAY_TIME];
 
 /// A kind of entity: a path in which names in braces stand for one name each.
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +89,15 @@ entities! {
     WRENCH "plots/force/{axis}/measured" "measured force on the tool along an axis (N)"
     EXPECTED "plots/force/{axis}/expected" "expected force (N)"
     PERSON "plots/force/{axis}/person" "force of the person (N)"
+    EXTERNAL "plots/force/{axis}/unexpected" "measured less expected force: what the coupling acts on (N)"
+    TAUGHT_FORCING "plots/forcing/{axis}/demonstrated/{demonstration}" "what the forcing term of a demonstration must have been, eq. (4) (m)"
+    FORCING_UPPER "plots/forcing/{axis}/gaussians/{state}/upper" "upper half of a state's ellipse over the phase, at two standard deviations (m)"
+    FORCING_LOWER "plots/forcing/{axis}/gaussians/{state}/lower" "its lower half (m)"
+    FORCING "plots/forcing/{axis}/skill" "forcing term of the skill in this setting (m)"
+    PERSON_FORCE "plots/person/force" "size of the person's force (N)"
+    PERSON_POWER "plots/person/power" "power that the person puts into the arm: force times velocity of the point where it acts (W)"
+    SPREAD "plots/spread/active_state" "root of the active state's statistic of eq. (20): how far demonstrations disagree (mm; mrad for a skill of the joints)"
+    THRESHOLD "plots/spread/threshold" "root of the threshold sigma: states above it comply (mm; mrad)"
     TORQUE "plots/torque/{axis}" "measured torque about the tool (N m)"
     COUPLING "plots/coupling/{axis}" "displacement zeta/K by the coupling term (m)"
     BETA "plots/compliance/beta" "beta of the active state: 0 stiff, -1 complies, +1 minimises the force error"
@@ -92,6 +108,23 @@ entities! {
     STATE_LANE "lanes/state" "the active state"
     GRIPPER_LANE "lanes/gripper" "whether the gripper is told to be open or closed"
     PERSON_LANE "lanes/person" "whether the person holds the arm"
+    NEAREST "world/nearest/{object}" "where the arm, or what it holds, comes nearest to an object, if within 5 cm: a line while it happens"
+    CONTACT "world/contacts" "where something touches, when it is deepest: red what must not, white what may"
+    TEACHING "teaching" "the lessons, on the timeline teaching_time: the scene in the robot's base frame (m)"
+    TEACHING_BODY "teaching/robot/{body}" "pose of a robot body while a person leads the arm"
+    TEACHING_BODY_SHAPE "teaching/robot/{body}/{shape}" "what the body looks like, in its frame"
+    TEACHING_OBJECT "teaching/objects/{object}" "pose of an object of the scene"
+    TEACHING_OBJECT_SHAPE "teaching/objects/{object}/{shape}" "what the object looks like in the lesson's setting, in its frame"
+    TEACHING_PATH "teaching/path" "path of the tool in the lesson: at each moment the piece since the moment before"
+    TEACHING_PERSON "teaching/person" "force of the person who leads the arm"
+    TEACHING_MOTION "teaching_plots/motion/{axis}" "coordinate of the tool as the encoders saw it (m)"
+    TEACHING_FORCE "teaching_plots/person/force" "size of the person's force (N)"
+    TEACHING_GRIPPER "teaching_plots/gripper/commanded" "opening of the gripper that the person commands"
+    TEACHING_LANE "teaching_lanes/lesson" "which demonstration is taught"
+    REPLAY_PATH "replay/tool" "pose of the tool frame in the demonstration that is replayed"
+    REPLAY_ARROW "replay/force" "force of the environment on the tool that the replaying arm estimates"
+    REPLAY_FORCE "replay_plots/force/{axis}" "the same along an axis (N)"
+    REPLAY_LANE "replay_lanes/demonstration" "which demonstration is replayed"
     EVENTS "events" "what happens, in words"
     GUIDE "guide" "how to read this recording"
 }

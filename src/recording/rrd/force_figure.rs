@@ -5,22 +5,23 @@ use rerun::{Arrows3D, Color, EntityPath, Scalars};
 
 use super::convert;
 use super::entity_path::{
-    ACTIVATION, BETA, COUPLING, EXPECTED, EXPECTED_ARROW, Entity, GRIPPER_COMMAND, GRIPPER_OPENING, PERSON, PERSON_ARROW, TORQUE, WRENCH,
-    WRENCH_ARROW,
+    ACTIVATION, BETA, COUPLING, EXPECTED, EXPECTED_ARROW, EXTERNAL, Entity, GRIPPER_COMMAND, GRIPPER_OPENING, PERSON, PERSON_ARROW,
+    PERSON_FORCE, PERSON_POWER, TORQUE, WRENCH, WRENCH_ARROW,
 };
+use super::lanes::holds;
 use super::palette;
 use super::paths::{AXES, style};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::StepRecord;
 
 /// Length of an arrow per newton (m/N): 15 N, the most that a helping person pushes with, are 30 cm.
-const ARROW_M_PER_N: f64 = 0.02;
+pub(super) const ARROW_M_PER_N: f64 = 0.02;
 
 /// The person's arrow starts this far from the point where the force acts (m): at the surface of the arm, in which it could not be seen.
 const ARM_RADIUS_M: f64 = 0.07;
 
 /// Forces below this are not drawn as arrows (N).
-const SMALLEST_ARROW_N: f64 = 0.25;
+pub(super) const SMALLEST_ARROW_N: f64 = 0.25;
 
 /// Colours of the three axes, as rerun and most robot tools draw them.
 const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLANNED];
@@ -40,19 +41,36 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], expects: b
         plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;
         if expects {
             plot.log(EXPECTED.of(&[axis]), "expected", palette::EXPECTED, |r| r.expected_force[i])?;
+            plot.log(EXTERNAL.of(&[axis]), "unexpected", palette::COMPLIES, |r| r.wrench[i] - r.expected_force[i])?;
         }
         plot.log(PERSON.of(&[axis]), "person", palette::PERSON, |r| r.human.force[i])?;
         plot.log(TORQUE.of(&[axis]), axis, AXIS_COLORS[i], |r| r.wrench[3 + i])?;
         plot.log(COUPLING.of(&[axis]), axis, AXIS_COLORS[i], |r| r.coupling_displacement[i])?;
     }
+    plot.log(PERSON_FORCE.path(), "force (N)", palette::PERSON, |r| r.human.force.norm())?;
+    log_power(&plot)?;
     plot.log(BETA.path(), "beta", palette::COMPLIES, |r| r.beta)?;
     plot.log(ACTIVATION.path(), "activation", palette::EXECUTED, |r| r.activation)?;
     plot.log(GRIPPER_COMMAND.path(), "commanded", palette::PLANNED, |r| r.gripper_command)?;
     plot.log(GRIPPER_OPENING.path(), "measured", palette::EXECUTED, |r| r.gripper_opening)
 }
 
+/// Power of the person: force times velocity of the point where it acts, by differences of neighbouring records.
+fn log_power(plot: &Plot) -> Result<(), Fault> {
+    let entity = PERSON_POWER.path();
+    plot.recorder.always(entity.clone(), &style("power (W)", palette::EXECUTED, 1.5))?;
+    let of_pair = |pair: &[StepRecord]| {
+        let (before, after) = (&pair[0], &pair[1]);
+        let way = after.human.point - before.human.point;
+        if holds(before) && holds(after) { after.human.force.dot(&way) / (after.time_s - before.time_s) } else { 0.0 }
+    };
+    let first = plot.records.first().map(|_| 0.0);
+    let values: Vec<f64> = first.into_iter().chain(plot.records.windows(2).map(of_pair)).collect();
+    plot.recorder.every_step(entity, Scalars::new(values).columns_of_unit_batches()?)
+}
+
 /// From the point where a force acts to the surface of the arm, in the direction of the force (m).
-fn to_surface(force: &Vector3<f64>) -> Vector3<f64> {
+pub(super) fn to_surface(force: &Vector3<f64>) -> Vector3<f64> {
     force.try_normalize(0.0).unwrap_or_default() * ARM_RADIUS_M
 }
 

@@ -34,4 +34,10 @@ each state, at two standard deviations.
 
 - grey: taught; blue: planned, what the skill generates for this setting without any force; orange: executed
 - dark blue arrow and line: force measured at the tool; yellow: force that the skill expects; vermilion: force of the person
-- the ellipsoid with the thick lines is that of the active state, which is also named beside the scene";
+- the ellipsoid with the thick lines is that of the active state, which is also named beside the scene
+- the plot above the lanes says why: a state complies when the demonstrations disagree in it by more than the threshold sigma
+- white points touch and may, red ones must not; a white line is a smallest distance, while it happens
+- the forcing term is what bends the movement on its way; on the timeline `phase` it is over the phase, as in the paper's Fig. 6a
+
+The page **Teaching** shows the lessons, one after the other, and the page **Replay** what the arm felt when it repeated them alone. Each has a
+timeline of its own: choose it at the bottom left, or its page stays empty.";

@@ -1,4 +1,4 @@
-//! The layout that a recording opens with: the scene at the left; motion, forces, lanes and events at the right.
+//! The layout that a recording opens with: a page for the execution, one for the teaching, one for the replay.
 
 use nalgebra::Vector3;
 use rerun::blueprint::components::{BackgroundKind, Corner2D, LinkAxis, PanelState, PlayState};
@@ -14,7 +14,7 @@ use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLog
 
 use super::blueprint_property::Properties;
 use super::convert;
-use super::entity_path::{EXECUTED_PATH, SIM_TIME, TIMELINES};
+use super::entity_path::{EXECUTED_PATH, Entity, SIM_TIME, TEACHING_PATH, TIMELINES};
 use super::palette;
 use super::recorder::Fault;
 
@@ -25,34 +25,80 @@ const TARGET_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(-0.2, -0.01, 0.14);
 const EYE_FROM_TARGET_M: Vector3<f64> = Vector3::new(1.10, 0.69, 0.32);
 
 /// Titles stand where a legend cannot cover anything.
-const SCENE_TITLE: &str = "Scene: taught grey, planned blue, executed orange; states stiff green, complying purple; person vermilion";
+const SCENE_TITLE: &str = "Execution: taught grey, planned blue, executed orange; states stiff green, complying purple; person vermilion";
 
-/// The layout with the properties of its views. `middle` is that of the way of the tool, `floor_m` the height of the floor (m, world).
-pub(super) fn layout(middle: Vector3<f64>, floor_m: f64) -> Result<(Blueprint, Properties), Fault> {
+/// The layout with the properties of its views: one page for the execution, one for what came before it. `middle` is that of the way of the
+/// tool, `floor_m` the height of the floor (m, world).
+pub(super) fn layout(middle: Vector3<f64>, floor_m: f64, taught: bool) -> Result<(Blueprint, Properties), Fault> {
     let mut views = Views::default();
-    let scene = views.scene(middle + TARGET_FROM_MIDDLE_M, floor_m)?;
-    let lateral = views.plot("Lateral motion x (m): taught grey, planned blue, executed orange", "plots/motion/x", None)?;
-    let vertical = views.plot("Vertical motion z (m): taught grey, planned blue, executed orange", "plots/motion/z", None)?;
-    let more = [
-        views.plot("Force x (N)", "plots/force/x", Some(Corner2D::RightTop))?,
-        views.plot("Force y (N)", "plots/force/y", Some(Corner2D::RightTop))?,
-        views.plot("Force z (N)", "plots/force/z", Some(Corner2D::RightTop))?,
-        views.plot("Coupling (m)", "plots/coupling", Some(Corner2D::RightTop))?,
-        views.plot("Gripper", "plots/gripper", Some(Corner2D::LeftBottom))?,
-        views.plot("Motion y (m)", "plots/motion/y", None)?,
-    ];
-    let lanes = StateTimelineView::new("Compliance, gripper, person, state").with_origin("/lanes");
-    let words = Tabs::new([views.events()?.into(), TextDocumentView::new("How to read").with_origin("/guide").into()]);
-    let left = Vertical::new([scene.into(), words.into()]).with_row_shares(vec![5.0, 1.0]);
-    let right: [ContainerLike; 4] = [lateral.into(), vertical.into(), Tabs::new(more.map(ContainerLike::from)).into(), lanes.into()];
-    let right = Vertical::new(right).with_row_shares(vec![1.2, 1.2, 1.0, 1.25]);
-    let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
+    let execution = execution(&mut views, middle + TARGET_FROM_MIDDLE_M, floor_m)?.with_name("Execution");
+    let teaching = teaching(&mut views, middle + TARGET_FROM_MIDDLE_M, floor_m)?.with_name("Teaching (timeline teaching_time)");
+    let replay = replay(&mut views)?.with_name("Replay (timeline replay_time)");
+    let mut pages: Vec<ContainerLike> = vec![execution.into()];
+    if taught {
+        pages.push(teaching.into());
+    }
+    pages.push(replay.into());
+    let blueprint = Blueprint::new(Tabs::new(pages))
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
         .with_time_panel(
             TimePanel::new().with_state(PanelState::Collapsed).with_timeline(SIM_TIME.name).with_play_state(PlayState::Paused),
         );
     Ok((blueprint, views.properties))
+}
+
+/// The scene with the events at the left; motion, forces, compliance and lanes at the right.
+fn execution(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Horizontal, Fault> {
+    let scene = views.scene(SCENE_TITLE, "/world", &EXECUTED_PATH, target, floor_m)?;
+    let lateral = views.plot("Motion x (m): taught grey, planned blue, executed orange", "plots/motion/x", None)?;
+    let vertical = views.plot("Motion z (m): taught grey, planned blue, executed orange", "plots/motion/z", None)?;
+    let legend = Some(Corner2D::RightTop);
+    let more = [
+        views.plot("Force x (N)", "plots/force/x", legend)?,
+        views.plot("y", "plots/force/y", legend)?,
+        views.plot("z", "plots/force/z", legend)?,
+        views.plot("Person (N)", "plots/person/force", None)?,
+        views.plot("Power (W)", "plots/person/power", None)?,
+        views.plot("Forcing x", "plots/forcing/x", None)?,
+        views.plot("z", "plots/forcing/z", None)?,
+        views.plot("Coupling", "plots/coupling", legend)?,
+        views.plot("Gripper", "plots/gripper", Some(Corner2D::LeftBottom))?,
+        views.plot("Motion y", "plots/motion/y", None)?,
+    ];
+    let spread = views.plot("How far demonstrations disagree in the active state", "plots/spread", legend)?;
+    let lanes = StateTimelineView::new("Compliance, gripper, person, state").with_origin("/lanes");
+    let words = Tabs::new([views.events()?.into(), TextDocumentView::new("How to read").with_origin("/guide").into()]);
+    let left = Vertical::new([scene.into(), words.into()]).with_row_shares(vec![5.0, 1.0]);
+    let right: [ContainerLike; 5] =
+        [lateral.into(), vertical.into(), Tabs::new(more.map(ContainerLike::from)).into(), spread.into(), lanes.into()];
+    let right = Vertical::new(right).with_row_shares(vec![1.0, 1.0, 1.25, 0.7, 1.35]);
+    Ok(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
+}
+
+/// The lessons: the scene at the left; motion, person and gripper at the right.
+fn teaching(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Horizontal, Fault> {
+    let scene = views.scene("Teaching: a person (vermilion) leads the weightless arm", "/teaching", &TEACHING_PATH, target, floor_m)?;
+    let right: [ContainerLike; 5] = [
+        views.plot("Taught x (m)", "teaching_plots/motion/x", None)?.into(),
+        views.plot("Taught z (m)", "teaching_plots/motion/z", None)?.into(),
+        views.plot("Force of the person (N)", "teaching_plots/person", None)?.into(),
+        views.plot("Gripper: 0 closed, 1 open", "teaching_plots/gripper", None)?.into(),
+        StateTimelineView::new("Demonstration").with_origin("/teaching_lanes").into(),
+    ];
+    let right = Vertical::new(right).with_row_shares(vec![1.0, 1.0, 1.0, 0.7, 0.6]);
+    Ok(Horizontal::new([scene.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
+}
+
+/// The replays: what the arm felt, per axis.
+fn replay(views: &mut Views) -> Result<Vertical, Fault> {
+    let plots: [ContainerLike; 4] = [
+        views.plot("Measured force x (N)", "replay_plots/force/x", None)?.into(),
+        views.plot("Measured force y (N)", "replay_plots/force/y", None)?.into(),
+        views.plot("Measured force z (N)", "replay_plots/force/z", None)?.into(),
+        StateTimelineView::new("Demonstration").with_origin("/replay_lanes").into(),
+    ];
+    Ok(Vertical::new(plots).with_row_shares(vec![1.0, 1.0, 1.0, 0.5]))
 }
 
 /// Makes views and keeps their properties.
@@ -62,8 +108,9 @@ struct Views {
 }
 
 impl Views {
-    fn scene(&mut self, target: Vector3<f64>, floor_m: f64) -> Result<View, Fault> {
-        let view = view(Spatial3DView::new(SCENE_TITLE).with_origin("/world"))?;
+    /// A scene whose camera looks at `target`, and in which the whole of a growing path is seen.
+    fn scene(&mut self, title: &str, origin: &str, path: &Entity, target: Vector3<f64>, floor_m: f64) -> Result<View, Fault> {
+        let view = view(Spatial3DView::new(title).with_origin(origin))?;
         let eye = EyeControls3D::new()
             .with_position(convert::vector(&(target + EYE_FROM_TARGET_M)))
             .with_look_target(convert::vector(&target))
@@ -74,7 +121,7 @@ impl Views {
         self.properties.set(&view, "LineGrid3D", LineGrid3D::new().with_spacing(0.25).with_plane(floor));
         let until_now = TimeRange { start: TimeRangeBoundary::Infinite, end: TimeRangeBoundary::AT_CURSOR };
         let ranges = TIMELINES.map(|timeline| VisibleTimeRange { timeline: timeline.name.into(), range: until_now });
-        self.properties.set_for_entity(&view, &EXECUTED_PATH.path(), VisibleTimeRanges::new(ranges));
+        self.properties.set_for_entity(&view, &path.path(), VisibleTimeRanges::new(ranges));
         Ok(view)
     }
 

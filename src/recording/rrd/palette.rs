@@ -27,6 +27,10 @@ pub(super) const MEASURED: Color = rgb(meaning::MEASURED);
 pub(super) const EXPECTED: Color = rgb(meaning::EXPECTED);
 /// What the person does.
 pub(super) const PERSON: Color = rgb(meaning::PERSON);
+/// Contact that must not be.
+pub(super) const FAULT: Color = rgb(Rgb::new(230, 30, 60));
+/// Contact that may be, and nearest points.
+pub(super) const TOUCH: Color = rgb(Rgb::new(255, 255, 255));
 /// Nothing of interest.
 pub(super) const IDLE: Color = rgb(Rgb::new(70, 74, 82));
 /// Behind the scene.

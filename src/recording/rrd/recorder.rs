@@ -9,7 +9,7 @@ use rerun::external::re_log_encoding::{Decodable, StreamFooter};
 use rerun::{AsComponents, EntityPath, RecordingStream, SerializedComponentColumn, TimeColumn};
 
 use super::convert;
-use super::entity_path::{PHASE, SIM_TIME, STEP};
+use super::entity_path::{PHASE, SIM_TIME, STEP, Timeline};
 use crate::simulation::StepRecord;
 
 /// What goes wrong while a file is written, before its path is added.
@@ -43,6 +43,15 @@ impl Recorder {
         Ok(self.stream.log_static(entity, what)?)
     }
 
+    /// Logs what holds from `time_s` (s) of one timeline on, or at all times without one.
+    pub(super) fn from(&self, when: Option<(Timeline, f64)>, entity: EntityPath, what: &dyn AsComponents) -> Result<(), Fault> {
+        let Some((timeline, time_s)) = when else { return self.always(entity, what) };
+        self.stream.set_time(timeline.name, std::time::Duration::from_nanos(nanoseconds(time_s).unsigned_abs()));
+        let logged = self.stream.log(entity, what);
+        self.stream.reset_time();
+        Ok(logged?)
+    }
+
     /// Logs one row per record.
     pub(super) fn every_step(
         &self,
@@ -65,6 +74,18 @@ impl Recorder {
             TimeColumn::new_sequence(PHASE.name, times_s.iter().map(|t| ten_thousandths(t / self.duration_s))),
         ];
         Ok(self.stream.send_columns(entity, times, columns)?)
+    }
+
+    /// Logs rows at `times_s` (s) of one timeline, and nowhere else.
+    pub(super) fn on(
+        &self,
+        timeline: Timeline,
+        entity: impl Into<EntityPath>,
+        times_s: &[f64],
+        columns: impl IntoIterator<Item = SerializedComponentColumn>,
+    ) -> Result<(), Fault> {
+        let times = TimeColumn::new_duration_nanos(timeline.name, times_s.iter().map(|t| nanoseconds(*t)));
+        Ok(self.stream.send_columns(entity, [times], columns)?)
     }
 
     /// Logs a pose per record, or once if it never changes.

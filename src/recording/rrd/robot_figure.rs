@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Vector3};
 use rerun::{Boxes3D, Color, Cylinders3D, Ellipsoids3D, FillMode, Mesh3D};
 
 use super::convert;
-use super::entity_path::{ROBOT_BODY, ROBOT_SHAPE};
+use super::entity_path::{Entity, ROBOT_BODY, ROBOT_SHAPE};
 use super::recorder::{Fault, Recorder};
 use crate::robot::{Body, Geometry, RobotModel, Shape};
 use crate::simulation::StepRecord;
@@ -15,14 +15,15 @@ pub(super) fn log_robot(recorder: &Recorder, robot: &RobotModel, records: &[Step
         let poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.bodies.get(index).copied()).collect();
         if poses.len() == records.len() {
             recorder.poses(ROBOT_BODY.of(&[&body.name]), &poses)?;
-            log_shapes(recorder, body)?;
+            log_shapes(recorder, &ROBOT_SHAPE, body)?;
         }
     }
     Ok(())
 }
 
-fn log_shapes(recorder: &Recorder, body: &Body) -> Result<(), Fault> {
-    let entity = |shape: &str| ROBOT_SHAPE.of(&[&body.name, shape]);
+/// Logs what a body looks like.
+pub(super) fn log_shapes(recorder: &Recorder, kind: &Entity, body: &Body) -> Result<(), Fault> {
+    let entity = |shape: &str| kind.of(&[&body.name, shape]);
     let (mut boxes, mut cylinders, mut spheres) = (Vec::new(), Vec::new(), Vec::new());
     for (index, visual) in body.visuals.iter().enumerate() {
         match &visual.shape {

@@ -4,10 +4,10 @@ use nalgebra::Isometry3;
 use rerun::{Boxes3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
 
 use super::convert;
-use super::entity_path::{OBJECT, OBJECT_SHAPE};
+use super::entity_path::{Entity, OBJECT, OBJECT_SHAPE, Timeline};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{Experiment, StepRecord};
-use crate::world::{Object, ObjectKind, PartShape, object_parts, support_height_m};
+use crate::world::{Object, ObjectKind, Parameters, PartShape, object_parts, support_height_m};
 
 /// Logs every object: its shapes, and its pose over time.
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
@@ -18,15 +18,22 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
             poses = vec![object.pose(&experiment.parameters, support)];
         }
         recorder.poses(OBJECT.of(&[&object.name]), &poses)?;
-        log_shapes(recorder, experiment, object)?;
+        log_shapes(recorder, None, &OBJECT_SHAPE, object, &experiment.parameters)?;
     }
     Ok(())
 }
 
-fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> Result<(), Fault> {
+/// Logs what an object looks like in a setting: from a moment on, or at all times.
+pub(super) fn log_shapes(
+    recorder: &Recorder,
+    when: Option<(Timeline, f64)>,
+    entity: &Entity,
+    object: &Object,
+    parameters: &Parameters,
+) -> Result<(), Fault> {
     let color = color(object);
     let (mut boxes, mut balls, mut cylinders) = (Vec::new(), Vec::new(), Vec::new());
-    for part in object_parts(object, &experiment.parameters) {
+    for part in object_parts(object, parameters) {
         let pose = part.object_from_part;
         let place = convert::vector(&pose.translation.vector);
         match part.shape {
@@ -42,13 +49,13 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_quaternions(boxes.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "boxes"]), &solid)?;
+        recorder.from(when, entity.of(&[&object.name, "boxes"]), &solid)?;
     }
     if !balls.is_empty() {
         let solid = Ellipsoids3D::from_centers_and_radii(balls.iter().map(|b| b.0), balls.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "balls"]), &solid)?;
+        recorder.from(when, entity.of(&[&object.name, "balls"]), &solid)?;
     }
     if !cylinders.is_empty() {
         let solid = Cylinders3D::from_lengths_and_radii(cylinders.iter().map(|c| c.3), cylinders.iter().map(|c| c.2))
@@ -56,7 +63,7 @@ fn log_shapes(recorder: &Recorder, experiment: &Experiment, object: &Object) -> 
             .with_quaternions(cylinders.iter().map(|c| c.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.always(OBJECT_SHAPE.of(&[&object.name, "cylinders"]), &solid)?;
+        recorder.from(when, entity.of(&[&object.name, "cylinders"]), &solid)?;
     }
     Ok(())
 }

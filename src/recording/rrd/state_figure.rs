@@ -13,7 +13,7 @@ use super::task_states::{Plan, State, states};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
 
 /// Ellipses are drawn at this many standard deviations: 95 % of a Gaussian in one dimension.
-const DEVIATIONS: f64 = 2.0;
+pub(super) const DEVIATIONS: f64 = 2.0;
 
 /// Half axes of ellipsoids are at least this long (m), or those of states on which all agree could not be seen.
 const THINNEST_M: f64 = 0.004;
@@ -22,7 +22,7 @@ const THINNEST_M: f64 = 0.004;
 const LABEL_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(0.0, 0.6, 0.3);
 
 /// Points of half an ellipse.
-const POINTS: usize = 41;
+pub(super) const POINTS: usize = 41;
 
 /// Logs the states of the skill in the setting of `experiment`; a skill without states logs none. `middle` is that of the way of the tool.
 pub(super) fn log_states(

@@ -7,7 +7,10 @@ use rerun::{RecordingStreamBuilder, ViewCoordinates};
 
 use super::entity_path::WORLD;
 use super::recorder::{Fault, Recorder, has_footer};
-use super::{blueprint_property, events, force_figure, guide, lanes, layout, paths, robot_figure, scene_figure, state_figure};
+use super::{
+    blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, paths, replay_figure, robot_figure,
+    scene_figure, spread_figure, state_figure, teaching_figure,
+};
 use crate::recording::RecordingError;
 use crate::robot::{RobotModel, Shape};
 use crate::simulation::{Experiment, RunOutcome, skill_duration_s};
@@ -38,7 +41,7 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     }
     stream.send_recording_name(name)?;
     let middle = middle(outcome);
-    let (blueprint, properties) = layout::layout(middle, floor_m(&outcome.robot))?;
+    let (blueprint, properties) = layout::layout(middle, floor_m(&outcome.robot), !outcome.lessons.is_empty())?;
     blueprint_property::send(&stream, APPLICATION, &blueprint, &properties)?;
 
     let duration_s = skill_duration_s(&outcome.steps).unwrap_or_else(|| outcome.plan.duration_s());
@@ -50,6 +53,11 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     state_figure::log_states(&recorder, experiment, outcome, duration_s, middle)?;
     force_figure::log_forces(&recorder, &outcome.steps, outcome.skill.force.is_some())?;
     lanes::log_lanes(&recorder, &outcome.steps, outcome.skill.motion.states() > 0)?;
+    forcing_figure::log_forcing(&recorder, experiment, outcome, duration_s)?;
+    spread_figure::log_spread(&recorder, outcome)?;
+    contact_figure::log_contacts(&recorder, outcome)?;
+    teaching_figure::log_lessons(&recorder, experiment, outcome)?;
+    replay_figure::log_replays(&recorder, &outcome.dataset)?;
     events::log_events(&recorder, outcome)?;
     guide::log_guide(&recorder, experiment, outcome)?;
     recorder.finish()

@@ -1,0 +1,48 @@
+//! What touches, and what nearly does.
+
+use rerun::{LineStrips3D, Points3D};
+
+use super::convert;
+use super::entity_path::{CONTACT, NEAREST};
+use super::palette;
+use super::recorder::{Fault, Recorder};
+use crate::simulation::RunOutcome;
+use crate::world::{ContactEpisode, NEAR_M, nearest_of_each};
+
+/// What happens in a moment is shown from so long before it to so long after it (s).
+const SHOWN_S: [f64; 2] = [0.4, 0.8];
+
+/// Logs contacts, and smallest distances that are near ones, when they happen.
+pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome) -> Result<(), Fault> {
+    for clearance in nearest_of_each(&outcome.clearances).into_iter().filter(|clearance| clearance.min_distance_m < NEAR_M) {
+        let entity = NEAREST.of(&[&clearance.b]);
+        let look = LineStrips3D::update_fields().with_colors([palette::TOUCH]).with_radii([0.003]).with_show_labels(true);
+        recorder.always(entity.clone(), &look)?;
+        let line = [convert::vector(&clearance.point_a.coords), convert::vector(&clearance.point_b.coords)];
+        let label = format!("{:.0} mm", clearance.min_distance_m * 1e3);
+        let shown = LineStrips3D::update_fields().with_strips([line]).with_labels([label]);
+        let times = [(clearance.time_s - SHOWN_S[0]).max(0.0), clearance.time_s + SHOWN_S[1]];
+        recorder.at_times(entity, &times, shown.columns([1, 0])?)?;
+    }
+    log_touches(recorder, &outcome.collisions)
+}
+
+/// Contacts are points where and when they were deepest.
+fn log_touches(recorder: &Recorder, contacts: &[ContactEpisode]) -> Result<(), Fault> {
+    recorder.always(CONTACT.path(), &Points3D::update_fields().with_radii([0.008]))?;
+    let shown = |contact: &ContactEpisode| [(contact.deepest_time_s - SHOWN_S[0]).max(0.0), contact.deepest_time_s + SHOWN_S[1]];
+    let mut moments: Vec<f64> = contacts.iter().flat_map(shown).collect();
+    moments.sort_by(f64::total_cmp);
+    moments.dedup();
+    let during = |time_s: &f64| -> Vec<&ContactEpisode> {
+        let seen = |contact: &&ContactEpisode| (shown(contact)[0]..shown(contact)[1]).contains(time_s);
+        contacts.iter().filter(seen).collect()
+    };
+    let sets: Vec<Vec<&ContactEpisode>> = moments.iter().map(during).collect();
+    let all = || sets.iter().flatten();
+    let points = Points3D::update_fields()
+        .with_positions(all().map(|contact| convert::vector(&contact.deepest_point.coords)))
+        .with_colors(all().map(|contact| if contact.allowed { palette::TOUCH } else { palette::FAULT }));
+    let lengths: Vec<usize> = sets.iter().map(Vec::len).collect();
+    recorder.at_times(CONTACT.path(), &moments, points.columns(lengths)?)
+}

@@ -1,0 +1,131 @@
+//! The lessons: a person leads the arm, one demonstration after the other, on a timeline of their own.
+
+use nalgebra::{Isometry3, Vector3};
+use rerun::{Arrows3D, EntityPath, LineStrips3D, Scalars, StateChange, Transform3D, ViewCoordinates};
+
+use super::convert;
+use super::entity_path::{
+    TEACHING, TEACHING_BODY, TEACHING_BODY_SHAPE, TEACHING_FORCE, TEACHING_GRIPPER, TEACHING_LANE, TEACHING_MOTION, TEACHING_OBJECT,
+    TEACHING_OBJECT_SHAPE, TEACHING_PATH, TEACHING_PERSON, TEACHING_TIME,
+};
+use super::force_figure::{ARROW_M_PER_N, SMALLEST_ARROW_N, to_surface};
+use super::palette;
+use super::paths::{AXES, style};
+use super::recorder::{Fault, Recorder};
+use super::robot_figure;
+use super::scene_figure;
+use crate::robot::RobotModel;
+use crate::simulation::{Experiment, LessonLook, LessonRecord, RunOutcome};
+
+/// Time between two lessons on the timeline (s).
+const PAUSE_S: f64 = 1.0;
+
+/// Logs every lesson; nothing when the demonstrations were not taught in this run.
+pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), Fault> {
+    if outcome.lessons.is_empty() {
+        return Ok(());
+    }
+    recorder.always(TEACHING.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+    let mut film = Film::default();
+    for lesson in &outcome.lessons {
+        let start_s = film.append(lesson);
+        for object in &experiment.objects {
+            let when = Some((TEACHING_TIME, start_s));
+            scene_figure::log_shapes(recorder, when, &TEACHING_OBJECT_SHAPE, object, &lesson.parameters)?;
+        }
+    }
+    film.log_bodies(recorder, &outcome.robot)?;
+    for (index, object) in experiment.objects.iter().enumerate() {
+        film.log_poses(recorder, TEACHING_OBJECT.of(&[&object.name]), |look| look.objects.get(index).copied())?;
+    }
+    film.log_path(recorder)?;
+    film.log_person(recorder)?;
+    film.log_plots(recorder)
+}
+
+/// All lessons on one timeline.
+#[derive(Default)]
+struct Film<'a> {
+    times_s: Vec<f64>,
+    looks: Vec<&'a LessonLook>,
+    /// Where each lesson starts among the looks, and its name.
+    starts: Vec<(usize, &'a str)>,
+}
+
+impl<'a> Film<'a> {
+    /// Adds a lesson; returns when it starts (s).
+    fn append(&mut self, lesson: &'a LessonRecord) -> f64 {
+        let start_s = self.times_s.last().map_or(0.0, |last| last + PAUSE_S);
+        self.starts.push((self.looks.len(), &lesson.name));
+        self.times_s.extend(lesson.looks.iter().map(|look| start_s + look.time_s));
+        self.looks.extend(&lesson.looks);
+        start_s
+    }
+
+    fn log_bodies(&self, recorder: &Recorder, robot: &RobotModel) -> Result<(), Fault> {
+        for (index, body) in robot.bodies.iter().enumerate().filter(|(_, body)| !body.visuals.is_empty()) {
+            self.log_poses(recorder, TEACHING_BODY.of(&[&body.name]), |look| look.bodies.get(index).copied())?;
+            robot_figure::log_shapes(recorder, &TEACHING_BODY_SHAPE, body)?;
+        }
+        Ok(())
+    }
+
+    /// Logs a pose when it differs from the one before.
+    fn log_poses(
+        &self,
+        recorder: &Recorder,
+        entity: EntityPath,
+        pose: impl Fn(&LessonLook) -> Option<Isometry3<f64>>,
+    ) -> Result<(), Fault> {
+        let (mut times, mut poses): (Vec<f64>, Vec<Isometry3<f64>>) = (Vec::new(), Vec::new());
+        for (time_s, look) in self.times_s.iter().zip(&self.looks) {
+            let Some(pose) = pose(look).filter(|pose| poses.last() != Some(pose)) else { continue };
+            times.push(*time_s);
+            poses.push(pose);
+        }
+        let columns = Transform3D::update_fields()
+            .with_many_translation(poses.iter().map(|pose| convert::vector(&pose.translation.vector)))
+            .with_many_quaternion(poses.iter().map(|pose| convert::quaternion(&pose.rotation)));
+        recorder.on(TEACHING_TIME, entity, &times, columns.columns_of_unit_batches()?)
+    }
+
+    /// The way of the tool, piece by piece; a lesson starts with a piece of no length.
+    fn log_path(&self, recorder: &Recorder) -> Result<(), Fault> {
+        let starts = |i: usize| self.starts.iter().any(|(start, _)| *start == i);
+        let piece = |i: usize| {
+            let before = if starts(i) { i } else { i - 1 };
+            [convert::vector(&self.looks[before].tool), convert::vector(&self.looks[i].tool)]
+        };
+        let look = LineStrips3D::update_fields().with_colors([palette::TAUGHT]).with_radii([0.003]);
+        recorder.always(TEACHING_PATH.path(), &look)?;
+        let pieces = LineStrips3D::update_fields().with_strips((0..self.looks.len()).map(piece));
+        recorder.on(TEACHING_TIME, TEACHING_PATH.path(), &self.times_s, pieces.columns_of_unit_batches()?)
+    }
+
+    fn log_person(&self, recorder: &Recorder) -> Result<(), Fault> {
+        let visible = |force: &Vector3<f64>| force.norm() >= SMALLEST_ARROW_N;
+        let drawn = || self.looks.iter().map(|look| &look.human).filter(|human| visible(&human.force));
+        let arrows = Arrows3D::update_fields()
+            .with_vectors(drawn().map(|human| convert::vector(&(human.force * ARROW_M_PER_N))))
+            .with_origins(drawn().map(|human| convert::vector(&(human.point + to_surface(&human.force)).coords)));
+        let lengths: Vec<usize> = self.looks.iter().map(|look| usize::from(visible(&look.human.force))).collect();
+        recorder.always(TEACHING_PERSON.path(), &Arrows3D::update_fields().with_colors([palette::PERSON]).with_radii([0.008]))?;
+        recorder.on(TEACHING_TIME, TEACHING_PERSON.path(), &self.times_s, arrows.columns(lengths)?)
+    }
+
+    fn log_plots(&self, recorder: &Recorder) -> Result<(), Fault> {
+        let plot = |entity: EntityPath, look, value: &dyn Fn(&LessonLook) -> f64| -> Result<(), Fault> {
+            recorder.always(entity.clone(), &look)?;
+            let values: Vec<f64> = self.looks.iter().map(|look| value(look)).collect();
+            recorder.on(TEACHING_TIME, entity, &self.times_s, Scalars::new(values).columns_of_unit_batches()?)
+        };
+        for (axis, name) in AXES.iter().enumerate() {
+            plot(TEACHING_MOTION.of(&[name]), style(name, palette::TAUGHT, 2.0), &|look| look.tool[axis])?;
+        }
+        plot(TEACHING_FORCE.path(), style("force (N)", palette::PERSON, 1.5), &|look| look.human.force.norm())?;
+        plot(TEACHING_GRIPPER.path(), style("commanded", palette::PLANNED, 1.5), &|look| look.gripper_command)?;
+        let times: Vec<f64> = self.starts.iter().map(|(start, _)| self.times_s[*start]).collect();
+        let names = self.starts.iter().enumerate().map(|(number, (_, name))| format!("{}: {name}", number + 1));
+        recorder.on(TEACHING_TIME, TEACHING_LANE.path(), &times, StateChange::new().with_state(names).columns_of_unit_batches()?)
+    }
+}

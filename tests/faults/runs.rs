@@ -1,0 +1,177 @@
+//! Faults that show only when the arm moves, or when the files around a run are not what they should be.
+
+use std::fs::File;
+use std::path::Path;
+
+use parquet::file::reader::SerializedFileReader;
+use parquet::record::Field;
+use serde_json::Value;
+
+use crate::cli::{Folder, GOOD, Said, cpdmp};
+
+const BAXTER: &str = include_str!("../../assets/baxter/baxter.urdf");
+
+fn good() -> Folder {
+    Folder::with(&[("a.toml", GOOD.as_bytes())])
+}
+
+fn with_set(folder: &Folder, command: &[&str], set: &[&str]) -> Said {
+    let set = set.iter().flat_map(|set| ["--set", *set]);
+    folder.call(&command.iter().copied().chain(set).collect::<Vec<_>>())
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// The report that a run with these overrides leaves in `out`, and what the program said.
+fn run(folder: &Folder, set: &[&str]) -> (Said, Value) {
+    let said = with_set(folder, &["run", "a.toml", "--out", "out", "-q"], set);
+    let report = std::fs::read_to_string(folder.path().join("out/report.json")).unwrap_or_else(|_| panic!("no report: {}", said.stderr));
+    (said, json(&report))
+}
+
+/// The columns of a step log whose names begin with `prefix`.
+fn columns(log: &Path, prefix: &str) -> Vec<Vec<f64>> {
+    let rows = SerializedFileReader::new(File::open(log).expect("written")).expect("Parquet").into_iter();
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    for row in rows.map(|row| row.expect("a row")) {
+        let found = row.get_column_iter().filter(|(name, _)| name.starts_with(prefix));
+        for (index, (_, field)) in found.enumerate() {
+            let number = match field {
+                Field::Double(number) => *number,
+                Field::Long(number) => *number as f64,
+                other => panic!("{other:?}"),
+            };
+            columns.resize_with(columns.len().max(index + 1), Vec::new);
+            columns[index].push(number);
+        }
+    }
+    columns
+}
+
+#[test]
+fn row_7_demonstrations_and_robots_outside_the_roots_are_refused_with_where_they_lie() {
+    let outside = Folder::with(&[("b.urdf", BAXTER.as_bytes()), ("d/x.csv", b"time_s,x_m\n0,0\n1,1\n")]);
+    let place = outside.path().canonicalize().expect("there");
+    let folder = good();
+    for (key, file) in [("robot.urdf", "b.urdf"), ("demonstrations", "d")] {
+        let file = place.join(file).display().to_string();
+        let layer = if key == "robot.urdf" { format!("[robot]\nurdf = {file:?}\n") } else { format!("demonstrations = {file:?}\n") };
+        let text = format!("extends = \"a.toml\"\nname = \"b\"\n{layer}");
+        std::fs::write(folder.path().join("b.toml"), text).expect("written");
+        let said = folder.call(&["validate", "b.toml"]);
+        assert_eq!(said.code, Some(3), "{key}: {}", said.stderr);
+        assert!(said.stderr.contains("error[outside_root]") && said.stderr.contains(&file), "{key}: {}", said.stderr);
+    }
+}
+
+#[test]
+fn row_13_what_starts_inside_something_else_is_told_with_pair_and_depth_before_a_step() {
+    for command in ["validate", "run"] {
+        let folder = good();
+        let said = with_set(&folder, &[command, "a.toml"], &["object.block.center_m=[0.6, 0.4]"]);
+        assert_eq!(said.code, Some(3), "{command}: {}", said.stdout);
+        let told = ["at the start `left_gripper_electric_base` is ", " mm inside `block.base`", "move the objects or the arm apart"];
+        assert!(told.iter().all(|part| said.stderr.contains(part)), "{command}: {}", said.stderr);
+        assert!(!folder.path().join("runs/good-0").exists(), "nothing was written");
+    }
+}
+
+#[test]
+fn row_24_a_pose_out_of_reach_is_told_with_the_distance_and_the_joint_that_stops_the_arm() {
+    let said = with_set(&good(), &["validate", "a.toml"], &["teaching.waypoint.1.offset_m=[0.0, 1.5, 0.0]"]);
+    assert_eq!(said.code, Some(3), "{}", said.stdout);
+    for part in ["way-point 2 (at toy) of lesson 1", "cannot be reached", " mm and ", " deg away"] {
+        assert!(said.stderr.contains(part), "{part}: {}", said.stderr);
+    }
+}
+
+#[test]
+fn row_25_a_simulation_that_diverges_ends_with_11_time_and_body() {
+    let link = BAXTER.find("<link name=\"left_upper_elbow\">").expect("there");
+    let (before, after) = BAXTER.split_at(link);
+    let tiny = "<inertia ixx=\"1e-200\" ixy=\"0\" ixz=\"0\" iyy=\"1e-200\" iyz=\"0\" izz=\"1e-200\"/>";
+    let inertia = &after[after.find("<inertia ").expect("there")..];
+    let inertia = &inertia[..inertia.find("/>").expect("there") + 2];
+    let robot = before.to_owned() + &after.replacen(inertia, tiny, 1).replacen("4.31272", "1e-200", 1);
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("b.urdf", robot.as_bytes())]);
+    let said = folder.call(&["run", "a.toml", "--robot", "b.urdf", "--out", "out"]);
+    assert_eq!(said.code, Some(11), "{}{}", said.stdout, said.stderr);
+    let report = json(&std::fs::read_to_string(folder.path().join("out/report.json")).expect("a report is written"));
+    assert_eq!((report["outcome"].as_str(), report["exit_code"].as_i64()), (Some("diverged"), Some(11)));
+    let error = report["error"].as_str().expect("a reason");
+    assert!(error.contains("diverged at step 1 (0.001 s): body `left_") && error.contains("`step_s`"), "{error}");
+}
+
+#[test]
+fn row_27_a_person_never_pushes_harder_than_the_cap_and_may_never_be_needed() {
+    let folder = good();
+    let aside = ["human.help.kind=guide", "human.help.object=toy", "object.toy.lateral_offset_m=0.1", "teaching.waypoint.1.at=table"];
+    let (said, report) = run(&folder, &[&aside[..], &["human.help.force_max_n=3"]].concat());
+    assert_eq!(said.code, Some(0), "{}{}", said.stdout, said.stderr);
+    let peak = report["human"]["peak_force_n"].as_f64().expect("a force");
+    assert!(peak > 2.5 && peak <= 3.0 + 1e-9, "asked for more than 3 N, the person pushes with {peak} N");
+    let (said, report) = run(&folder, &[&aside[..], &["human.help.reach_m=0"]].concat());
+    assert_eq!(said.code, Some(0));
+    assert_eq!((report["human"]["peak_force_n"].as_f64(), report["human"]["contact_s"].as_f64()), (Some(0.0), Some(0.0)));
+    assert!(said.stdout.contains("did not touch the arm"), "{}", said.stdout);
+    let limit = ["human.help.kind=push", "human.help.force_n=[20, 0, 0]", "human.help.windows_s=[[1, 2]]"];
+    let criterion = GOOD.to_owned() + "[[criterion]]\nname = \"gentle\"\nkind = \"human_force\"\nmax_n = 15\n";
+    std::fs::write(folder.path().join("a.toml"), criterion).expect("written");
+    let (said, _) = run(&folder, &limit);
+    assert!(said.code == Some(10) && said.stdout.contains("gentle"), "{:?} {}", said.code, said.stdout);
+}
+
+/// The worst sensors that a scenario may have, and a coupling as soft as it may be.
+#[test]
+fn row_28_wrong_forces_move_the_skill_no_further_than_the_saturation() {
+    let folder = good();
+    let worst = ["effort_bias_nm", "effort_noise_nm", "dry_friction_nm"].map(|key| format!("robot.sensor.{key}=5"));
+    let soft = ["learning.motion.states=3", "coupling.enabled=true", "coupling.mode=per_state", "coupling.beta=[-1, -1, -1]"];
+    let gain = ["coupling.compliance_m_per_n=[10, 10, 10]", "coupling.saturation_m=0.05"];
+    let set: Vec<&str> = worst.iter().map(String::as_str).chain(soft).chain(gain).collect();
+    let (said, report) = run(&folder, &set);
+    assert_eq!(said.code, Some(0), "{}{}", said.stdout, said.stderr);
+    assert!(!report.to_string().contains("NaN") && report["criteria"][0]["value"].is_number(), "{report}");
+    let coupling = columns(&folder.path().join("out/steps.parquet"), "coupling_");
+    assert_eq!(coupling.len(), 3, "x, y and z");
+    let largest = coupling.iter().flatten().fold(0.0, |largest: f64, m| if m.is_finite() { largest.max(m.abs()) } else { f64::INFINITY });
+    assert!(largest > 0.04 && largest <= 0.05 + 1e-12, "{largest} m");
+}
+
+#[test]
+fn row_29_a_run_that_takes_too_long_ends_with_12_and_says_how_far_it_came() {
+    let folder = good();
+    let said = folder.call(&["run", "a.toml", "--timeout", "0.02", "--out", "out"]);
+    assert_eq!(said.code, Some(12), "{}{}", said.stdout, said.stderr);
+    let report = json(&std::fs::read_to_string(folder.path().join("out/report.json")).expect("a report is written"));
+    assert_eq!((report["outcome"].as_str(), report["exit_code"].as_i64()), (Some("time_limit"), Some(12)));
+    assert!(report["error"].as_str().is_some_and(|error| error.contains("time limit") && error.contains("`teach`")), "{report}");
+    let said = folder.call(&["check", "a.toml", "--timeout", "0.02", "--format", "junit"]);
+    assert_eq!(said.code, Some(12));
+    assert!(said.stdout.contains("<error") && said.stdout.contains("time_limit"), "{}", said.stdout);
+    assert_eq!(folder.call(&["run", "a.toml", "--timeout", "600", "-q"]).code, Some(0), "a limit that is not reached changes nothing");
+    for wrong in ["0", "-1", "nan", "inf", "1e300", "soon"] {
+        assert_eq!(folder.call(&["run", "a.toml", "--timeout", wrong]).code, Some(2), "{wrong}");
+    }
+}
+
+/// Neither a display nor the clock of the machine has to do with a run: time is a whole number of steps.
+#[test]
+fn rows_34_and_38_no_display_is_needed_and_simulated_time_is_counted_in_steps() {
+    let folder = good();
+    let mut command = cpdmp();
+    for name in ["DISPLAY", "WAYLAND_DISPLAY", "XDG_RUNTIME_DIR", "HOME"] {
+        command.env_remove(name);
+    }
+    command.env("TZ", "Pacific/Kiritimati");
+    let output = command.current_dir(folder.path()).args(["run", "a.toml", "--out", "out", "-q"]).output().expect("it starts");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let log = folder.path().join("out/steps.parquet");
+    let [steps, times] = ["step", "time_s"].map(|name| columns(&log, name).remove(0));
+    assert!(steps.len() > 100 && steps.windows(2).all(|pair| pair[1] - pair[0] == steps[1] - steps[0]), "evenly logged");
+    for (step, time_s) in steps.iter().zip(&times) {
+        assert!((time_s - step * 1e-3).abs() < 1e-12, "step {step} at {time_s} s");
+    }
+}
