@@ -192,3 +192,27 @@ fn an_orientation_listed_as_motion_is_told_where_it_belongs() {
     assert_eq!(said.code, Some(3), "{}", said.stderr);
     assert!(said.stderr.contains("dataset.toml, motion: found qx, qy, qz, qw"), "{}", said.stderr);
 }
+
+#[test]
+fn one_demonstration_is_learned_and_its_limits_are_told() {
+    let rows: String = (0..60).map(|i| format!("{},{}\n", i as f64 * 0.05, (i as f64 / 20.0).sin())).collect();
+    let said = learn(&Folder::with(&[("strokes.csv", format!("time_s,x_m\n{rows}").as_bytes())]), &[]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(said.stdout.contains("1 demonstration of 2.950 s, sampled at 20.00 Hz"), "{}", said.stdout);
+    assert!(said.stdout.contains("there is one demonstration only"), "{}", said.stdout);
+}
+
+#[test]
+fn numbers_too_large_to_be_squared_are_refused_with_their_row() {
+    let rows: String = (0..60).map(|i| format!("{},{}\n", i as f64 * 0.05, if i == 7 { "1e300" } else { "0.1" })).collect();
+    let said = learn(&Folder::with(&[("strokes.csv", format!("time_s,x_m\n{rows}").as_bytes())]), &[]);
+    assert_eq!((said.code, said.stdout.as_str()), (Some(3), ""), "{}", said.stderr);
+    assert!(said.stderr.contains("strokes.csv, row 9, column x_m: found 1e300"), "{}", said.stderr);
+}
+
+#[test]
+fn long_work_is_announced() {
+    let said = learn(&strokes(), &["--theta", "start", "--cross-validate"]);
+    assert!(said.stderr.contains("once more for each parameter value left out"), "{}", said.stderr);
+    assert!(!learn(&strokes(), &[]).stderr.contains("learning the"), "what is done at once is not announced");
+}
