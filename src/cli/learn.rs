@@ -98,7 +98,7 @@ fn settings(arguments: &Learn, global: &Global) -> Result<(LearningSettings, Vec
     if arguments.baseline {
         flags.push(("--baseline", "shaping", "lwr".to_owned()));
     }
-    let options = LearningOptions { file: arguments.settings.clone(), set: global.set.clone(), flags };
+    let options = LearningOptions { file: arguments.settings.clone(), set: global.set.clone(), flags, lenient: global.lenient };
     let (mut settings, odd) = learning_settings(&options)?;
     settings.align |= arguments.align;
     Ok((settings, odd))
