@@ -46,7 +46,8 @@ pub fn demonstrate(setup: &Setup, progress: &dyn Progress) -> Result<(Dataset, H
 /// Executes a learned skill in the experiment's setting; `history` is what came before.
 ///
 /// # Errors
-/// When the skill does not fit the experiment, its start cannot be reached, or the simulation diverges.
+/// When the skill does not fit the experiment or its start cannot be reached; [`SimulationError::CutShort`] when the simulation diverges or is
+/// stopped.
 pub fn perform(
     setup: &Setup,
     dataset: &Dataset,
@@ -68,7 +69,7 @@ pub fn perform(
     history.traces.extend(WorldTrace::of("execute", 0, executed.trace));
     history.close("execute", executed.steps, started, progress);
     let state_hash = history.hash();
-    Ok(RunOutcome {
+    let left = RunOutcome {
         robot: setup.robot.clone(),
         robot_warnings: setup.warnings.clone(),
         dataset: dataset.clone(),
@@ -86,7 +87,29 @@ pub fn perform(
         state_hash,
         traces: history.traces,
         final_objects: executed.final_objects,
-    })
+    };
+    match executed.cut_short {
+        None => Ok(left),
+        Some(reason) if left.steps.is_empty() => Err(reason),
+        Some(reason) => Err(SimulationError::CutShort { reason: Box::new(reason), left: Box::new(left) }),
+    }
+}
+
+/// Executes a skill that was learned before, and returns what is kept of the states: of the skill, and of the world in which it was executed.
+///
+/// # Errors
+/// When the robot or the skill cannot be used, the start cannot be reached, or the simulation diverges or is stopped.
+pub fn execute_again(experiment: &Experiment, skill: &Skill, progress: &dyn Progress) -> Result<Vec<WorldTrace>, SimulationError> {
+    let setup = Setup::new(experiment)?;
+    progress.phase("execute", 0);
+    let executed = execute(&setup, skill, progress)?;
+    match executed.cut_short {
+        None => {
+            let learned = WorldTrace::of_text("learn", "skill", &skill.to_json()?);
+            Ok(std::iter::once(learned).chain(WorldTrace::of("execute", 0, executed.trace)).collect())
+        }
+        Some(reason) => Err(reason),
+    }
 }
 
 /// A warning when the setting lies outside what was demonstrated.
