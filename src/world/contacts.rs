@@ -107,7 +107,9 @@ impl ContactBook {
 
     /// The episode of a pair, the robot's part first, then what moves.
     fn episode(&mut self, pair: (usize, usize), parts: &Parts, time_s: f64) -> &mut ContactEpisode {
-        let index = self.episodes.iter().position(|episode| episode.pair == pair).unwrap_or_else(|| {
+        // Two parts of the robot come in either order.
+        let same = |episode: &ContactEpisode| episode.pair == pair || episode.pair == (pair.1, pair.0);
+        let index = self.episodes.iter().position(same).unwrap_or_else(|| {
             let (a, b) = (parts.get(pair.0), parts.get(pair.1));
             let permission = permission(a, b);
             self.episodes.push(ContactEpisode {
