@@ -42,11 +42,14 @@ fn line<'a>(chart: &'a Chart, legend: &str) -> &'a [[f64; 2]] {
 }
 
 fn outlines<'a>(chart: &'a Chart, legend: &str) -> Vec<&'a [[f64; 2]]> {
-    let outline = |mark: &&'a Mark| match &mark.shape {
-        Shape::Area { outline, .. } => &outline[..],
+    marks(chart, legend).into_iter().map(outline).collect()
+}
+
+fn outline(mark: &Mark) -> &[[f64; 2]] {
+    match &mark.shape {
+        Shape::Area { outline, .. } => outline,
         other => panic!("no outline: {other:?}"),
-    };
-    marks(chart, legend).iter().map(outline).collect()
+    }
 }
 
 #[test]
@@ -122,7 +125,8 @@ fn taught_settings_have_a_line_and_their_states_each() {
     heights.dedup();
     assert!(heights.len() > 1);
     for (j, panel) in figure.panels.iter().enumerate() {
-        let outlines: Vec<&[[f64; 2]]> = outlines(panel, "");
+        let area = |mark: &'_ Mark| matches!(mark.shape, Shape::Area { .. });
+        let outlines: Vec<&[[f64; 2]]> = panel.marks.iter().filter(|mark| area(mark)).map(outline).collect();
         assert_eq!(outlines.len(), heights.len() * phmm.states());
         for height in &heights {
             let theta = motion.parameters.resolve(&[("block_height_m".into(), *height)]).expect("known");

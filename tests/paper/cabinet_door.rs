@@ -219,7 +219,7 @@ fn what_cannot_be_reached_is_said_before_the_first_step() {
         refused(&["object.cabinet.center_m=[0.62, 0.65]", "object.cabinet.opening_max_rad=3.0", "teaching.waypoint.1.opening_rad=2.9"]);
     assert!(wide.contains("of lesson 1") && wide.contains("joint `left_"), "{wide}");
     let inside = refused(&["object.cabinet.handle_length_m=0.04", "object.cabinet.handle_standoff_m=0.015"]);
-    assert!(inside.contains("`left_hook` is ") && inside.contains("inside `cabinet.door`"), "{inside}");
+    assert!(inside.starts_with("lesson 1: at the start `left_hook` is ") && inside.contains("inside `cabinet.door`"), "{inside}");
     let off = refused(&["parameters.handle_y_m=0.15"]);
     assert!(off.contains("the handle of `cabinet` is 0.500 m from the hinge, but its door is 0.46 m wide"), "{off}");
 }
