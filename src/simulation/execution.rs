@@ -66,7 +66,9 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
         |now| {
             human_peak_force_n = now.hand.force.norm().max(human_peak_force_n);
             if now.world.step().is_multiple_of(every) {
-                records.push(record(now, names.len()));
+                let record = record(now, names.len());
+                progress.stepped(&record);
+                records.push(record);
             }
             settled += u64::from(now.controller.telemetry().time_fraction >= 1.0);
             slowest == 1.0 || settled <= settle
