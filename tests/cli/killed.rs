@@ -34,7 +34,7 @@ fn a_run_that_is_killed_leaves_a_recording_that_opens() {
     let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
     let recording = folder.path().join("runs/.good-0.partial/recording.partial.rrd");
     let mut before = 0;
-    for bytes in [1, 100_000, 300_000] {
+    for bytes in [20_000, 100_000, 300_000] {
         killed_at(&folder, &recording, bytes);
         let file = std::io::BufReader::new(fs::File::open(&recording).expect("it is there"));
         let messages = DecoderApp::decode_lazy(file).take_while(Result::is_ok).count();

@@ -55,7 +55,7 @@ fn execution(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Ho
     let beside =
         |name: &str, plots: Vec<View>| -> ContainerLike { Horizontal::new(plots.into_iter().map(Into::into)).with_name(name).into() };
     let force = ["x", "y", "z"].map(|axis| {
-        let legend = legend.filter(|_| axis == "z");
+        let legend = legend.filter(|_| axis == "x");
         views.plot(&format!("Force {axis} (N)"), &format!("plots/force/{axis}"), legend)
     });
     let person = [views.plot("Force (N)", "plots/person/force", None)?, views.plot("Power (W)", "plots/person/power", None)?];

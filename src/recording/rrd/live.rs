@@ -21,8 +21,11 @@ use crate::simulation::{Experiment, LessonRecord, RunOutcome, StepRecord};
 /// News that wait to be recorded: the steps of 40 s at 100 Hz.
 const WAITING: usize = 4096;
 
-/// Steps that are recorded together: a second at 100 Hz.
-const STEPS_TOGETHER: usize = 100;
+/// Steps that are recorded together for a viewer: a second at 100 Hz.
+const SHOWN_TOGETHER: usize = 100;
+
+/// Steps that are recorded together in a file, which nobody looks at yet: few large pieces cost less than many small ones.
+const KEPT_TOGETHER: usize = 1000;
 
 /// Time between two tries to reach a viewer that starts.
 const RETRY: Duration = Duration::from_millis(100);
@@ -51,13 +54,13 @@ impl LiveRecording {
     #[must_use]
     pub fn to_file(path: &Path, experiment: &Experiment) -> Self {
         let path = path.to_owned();
-        Self::start(experiment, move |builder, _| Ok(builder.save(path)?))
+        Self::start(experiment, KEPT_TOGETHER, move |builder, _| Ok(builder.save(path)?))
     }
 
     /// Records into the viewer that listens at `address`, as soon as it does. It is left alone when the run ends before.
     #[must_use]
     pub fn to_viewer(address: SocketAddr, experiment: &Experiment) -> Self {
-        Self::start(experiment, move |builder, over| {
+        Self::start(experiment, SHOWN_TOGETHER, move |builder, over| {
             while TcpStream::connect_timeout(&address, RETRY).is_err() {
                 if over.load(Ordering::Relaxed) {
                     return Err("no viewer listens".into());
@@ -70,6 +73,7 @@ impl LiveRecording {
 
     fn start(
         experiment: &Experiment,
+        together: usize,
         open: impl FnOnce(RecordingStreamBuilder, &AtomicBool) -> Result<RecordingStream, Fault> + Send + 'static,
     ) -> Self {
         let (news, told) = sync_channel(WAITING);
@@ -79,7 +83,7 @@ impl LiveRecording {
         thread::spawn(move || {
             // Whatever goes wrong, the run does not depend on it, and its recording is written when it is over.
             if let Ok(stream) = open(RecordingStreamBuilder::new(APPLICATION), &seen) {
-                _ = record(stream, &experiment, &told);
+                _ = record(stream, &experiment, together, &told);
             }
             _ = finished.send(());
         });
@@ -115,8 +119,8 @@ impl LiveRecording {
     }
 }
 
-/// Records until the run is over.
-fn record(stream: RecordingStream, experiment: &Experiment, news: &Receiver<News>) -> Result<(), Fault> {
+/// Records until the run is over, so many steps together.
+fn record(stream: RecordingStream, experiment: &Experiment, together: usize, news: &Receiver<News>) -> Result<(), Fault> {
     stream.send_recording_name(format!("{} (live)", name(experiment)))?;
     let mut chapters = Chapters { stream, experiment, middle: Default::default(), duration_s: 1.0 };
     let mut planned: Option<Box<RunOutcome>> = None;
@@ -141,7 +145,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, news: &Receiver<News
             News::Stepped(record) => {
                 let Some(outcome) = &mut planned else { continue };
                 outcome.steps.push(*record);
-                if outcome.steps.len() - told >= STEPS_TOGETHER {
+                if outcome.steps.len() - told >= together {
                     chapters.execution(outcome, told)?;
                     told = outcome.steps.len();
                 }
