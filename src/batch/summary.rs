@@ -1,12 +1,13 @@
 //! A sweep in a few figures.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Row;
 use crate::report::Outcome;
 
 /// What a sweep came to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
     /// Rows.
     pub runs: u64,
@@ -22,7 +23,7 @@ pub struct Summary {
 }
 
 /// A run that did not pass.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FirstFailure {
     /// The member's number.
     pub index: u64,
@@ -33,7 +34,7 @@ pub struct FirstFailure {
 }
 
 /// What the runs of a sweep say about one criterion.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CriterionSummary {
     /// Its name.
     pub name: String,

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::examples;
 use super::learning_args::{Generate, Inspect, Learn};
 use super::sweep_args::{MergeArguments, SweepArguments};
 use super::view::View;
@@ -27,10 +28,13 @@ pub(super) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Teach, learn, execute, judge and record: one run folder per scenario
+    #[command(after_long_help = examples::RUN)]
     Run(Run),
     /// Run without recording or display and judge: what a continuous integration calls
+    #[command(after_long_help = examples::CHECK)]
     Check(Check),
     /// Check scenarios and what they need, without simulating: all faults at once
+    #[command(after_long_help = examples::VALIDATE)]
     Validate(Paths),
     /// Learn a skill from a dataset, simulated or your own
     Learn(Learn),
@@ -41,22 +45,30 @@ pub(super) enum Command {
     /// Show the recording of a run in the rerun viewer
     View(View),
     /// Bring files of an older version of the program to this one's
+    #[command(after_long_help = examples::MIGRATE)]
     Migrate(Files),
     /// Run a scenario again and again with other values of its keys: one table, one row per run
+    #[command(after_long_help = examples::SWEEP)]
     Sweep(SweepArguments),
     /// Run a run again and compare its state hashes; with --set, say where another run parts from it
-    Replay(RunFolder),
+    #[command(after_long_help = examples::REPLAY)]
+    Replay(Replay),
     /// Join the tables of a sweep's shards into one (--out)
+    #[command(after_long_help = examples::MERGE)]
     Merge(MergeArguments),
     /// Draw the figures of a run again, from what its folder holds
+    #[command(after_long_help = examples::FIGURES)]
     Figures(RunFolder),
     /// List the scenarios of a folder, with what each shows
     List(Folders),
     /// Explain exit codes and the codes of faults
+    #[command(after_long_help = examples::EXPLAIN)]
     Explain(Code),
     /// Print the JSON Schema of a file format: editors complete and check files with it
+    #[command(after_long_help = examples::SCHEMA)]
     Schema(FileFormat),
     /// Print the completions of a shell
+    #[command(after_long_help = examples::COMPLETIONS)]
     Completions(Shell),
     /// Print the manual page, or write those of all commands to a folder with --out
     Man,
@@ -99,6 +111,36 @@ pub(super) struct RunFolder {
     /// The folder that a run has left
     #[arg(value_name = "RUN_DIR")]
     pub folder: PathBuf,
+}
+
+/// A run that is made again.
+#[derive(Debug, Args)]
+pub(super) struct Replay {
+    /// The folder that a run has left
+    #[arg(value_name = "RUN_DIR")]
+    pub folder: PathBuf,
+    /// Begin with this phase: what comes before it is taken from the folder, as the run left it
+    #[arg(long, value_enum, value_name = "PHASE")]
+    pub from: Option<Phase>,
+}
+
+/// A phase that a run can be taken up with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Phase {
+    /// Learning, from the folder's demonstrations.
+    Learn,
+    /// Execution, with the folder's skill.
+    Execute,
+}
+
+impl Phase {
+    /// What reports call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Learn => "learn",
+            Self::Execute => "execute",
+        }
+    }
 }
 
 /// What is checked, and where the verdict goes.
@@ -158,6 +200,10 @@ pub(super) enum SchemaName {
     Check,
     /// What `cpdmp learn --format json` prints.
     Learn,
+    /// What `cpdmp sweep --format json` prints.
+    Sweep,
+    /// What `cpdmp replay --format json` prints.
+    Replay,
 }
 
 /// For which shell.
@@ -183,6 +229,9 @@ pub(super) struct Global {
     /// Let scenarios use the files of this folder too; may be repeated
     #[arg(long, global = true, env = "CPDMP_ASSET_ROOT", value_name = "DIR")]
     pub asset_root: Vec<PathBuf>,
+    /// Only warn of keys that a scenario or settings of learning cannot have, and leave them aside
+    #[arg(long, global = true, env = "CPDMP_LENIENT")]
+    pub lenient: bool,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the
     /// samples to this file; figures to this folder; the sweep to this folder instead of sweeps/<scenario>; the joined table to this file
     #[arg(long, global = true, env = "CPDMP_OUT", value_name = "PATH")]

@@ -51,6 +51,11 @@ fn arm(experiment: &Experiment, scenario: &Scenario, progress: &dyn Progress) ->
             let criteria = judge(&left, experiment, &scenario.criteria);
             JudgedRun { report: RunReport::finished(experiment, &left, &criteria), left: Some(Left::Arm(Box::new(left))) }
         }
+        Err(SimulationError::CutShort { reason, mut left }) => {
+            allow(&mut left.collisions, &scenario.allowed_contacts);
+            let report = RunReport::cut_short(experiment, &left, outcome_of(&reason), &reason.to_string());
+            JudgedRun { report, left: Some(Left::Arm(left)) }
+        }
         Err(error) => failed(scenario, outcome_of(&error), &error.to_string()),
     }
 }
@@ -76,7 +81,9 @@ fn failed(scenario: &Scenario, outcome: Outcome, error: &str) -> JudgedRun {
 /// How a command ends that cannot learn.
 pub(super) fn of_learning(error: &LearningError) -> Outcome {
     match error {
-        LearningError::Settings(_) | LearningError::Demonstration(_) => Outcome::InvalidInput,
+        LearningError::Settings(_) | LearningError::Demonstration(_) | LearningError::Skill(_) | LearningError::Io { .. } => {
+            Outcome::InvalidInput
+        }
         _ => Outcome::LearningFailed,
     }
 }
@@ -86,6 +93,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
     match error {
         SimulationError::World(WorldError::Diverged { .. }) => Outcome::Diverged,
         SimulationError::Stopped { .. } => Outcome::TimeLimit,
+        SimulationError::CutShort { reason, .. } => outcome_of(reason),
         SimulationError::Learning(error) => of_learning(error),
         SimulationError::Demonstrations(DemonstrationError::Io { .. } | DemonstrationError::Invalid(_))
         | SimulationError::Urdf(_)

@@ -42,6 +42,7 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
     let first = arguments.init.as_deref().map(read_skill).transpose()?;
     let seed = global.seed.unwrap_or(0);
     let of_data = |error: LearningError| Failure::of_learning(arguments.init.as_ref().unwrap_or(path), &error);
+    terminal.note(&work_ahead(&dataset, &settings, arguments.cross_validate));
     let learned = match &first {
         Some(first) => learning::learn_from(&dataset, &settings, seed, first),
         None => learning::learn(&dataset, &settings, seed),
@@ -56,6 +57,23 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
         report.written = Some(out.clone());
     }
     Ok(report)
+}
+
+/// What is about to take long, so that nobody waits before a silent screen; nothing when it will not.
+fn work_ahead(dataset: &Dataset, settings: &LearningSettings, cross_validated: bool) -> String {
+    let models = [("motion", settings.motion_selection), ("force", settings.force_selection)];
+    let chosen = models.into_iter().flat_map(|(model, selection)| {
+        let states = selection.states.map(|search| format!("the {model} model with {} to {} states", search.min, search.max));
+        let ridge = selection.ridge.then(|| format!("the {model} model with each ridge"));
+        states.into_iter().chain(ridge)
+    });
+    let again = cross_validated.then(|| "everything once more for each parameter value left out".to_owned());
+    let ahead: Vec<String> = chosen.chain(again).collect();
+    if ahead.is_empty() {
+        String::new()
+    } else {
+        format!("{} demonstrations; learning {}\n", dataset.demonstrations.len(), ahead.join(", "))
+    }
 }
 
 /// Reads a skill; what is wrong with it names its file.
@@ -80,7 +98,7 @@ fn settings(arguments: &Learn, global: &Global) -> Result<(LearningSettings, Vec
     if arguments.baseline {
         flags.push(("--baseline", "shaping", "lwr".to_owned()));
     }
-    let options = LearningOptions { file: arguments.settings.clone(), set: global.set.clone(), flags };
+    let options = LearningOptions { file: arguments.settings.clone(), set: global.set.clone(), flags, lenient: global.lenient };
     let (mut settings, odd) = learning_settings(&options)?;
     settings.align |= arguments.align;
     Ok((settings, odd))

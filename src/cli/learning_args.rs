@@ -45,7 +45,7 @@ pub(super) struct Learn {
     /// Learn the baseline, LWR-DMP: blind to parameters, without compliance
     #[arg(long, conflicts_with_all = ["init", "states", "force_states"])]
     pub baseline: bool,
-    /// Start from the models of this skill, and from nothing else
+    /// Start from the models of this skill, and from nothing else; they decide the number of states
     #[arg(long, value_name = "SKILL.json", conflicts_with_all = ["states", "force_states", "cross_validate"])]
     pub init: Option<PathBuf>,
     /// Most iterations of each model

@@ -17,7 +17,13 @@ pub(super) struct Ready {
 
 /// What the flags say to the reader of scenarios.
 pub(super) fn options(global: &Global) -> LoadOptions {
-    LoadOptions { set: global.set.clone(), seed: global.seed, robot: global.robot.clone(), asset_roots: global.asset_root.clone() }
+    LoadOptions {
+        set: global.set.clone(),
+        seed: global.seed,
+        robot: global.robot.clone(),
+        asset_roots: global.asset_root.clone(),
+        lenient: global.lenient,
+    }
 }
 
 /// Every scenario, or the faults of every scenario that has some.

@@ -8,6 +8,7 @@ mod check;
 mod check_motion;
 mod check_target;
 mod completions;
+mod examples;
 mod explain;
 mod failure;
 mod figure_files;
@@ -26,13 +27,17 @@ mod merge;
 mod migrate;
 mod planar_files;
 mod progress;
+mod recorded_run;
+mod repetition;
 mod replay;
+mod replay_report;
 mod run;
 mod schema;
 mod select;
 mod sweep;
 mod sweep_args;
 mod sweep_progress;
+mod sweep_report;
 mod sweep_text;
 mod terminal;
 mod validate;
@@ -80,7 +85,7 @@ fn dispatch(cli: &Cli) -> Outcome {
         Command::View(arguments) => view::view(arguments, &terminal),
         Command::Migrate(arguments) => migrate::migrate(&arguments.files, arguments.dry_run, &terminal),
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.global, &terminal),
-        Command::Replay(arguments) => replay::replay(&arguments.folder, &cli.global, &terminal),
+        Command::Replay(arguments) => replay::replay(arguments, &cli.global, &terminal),
         Command::Merge(arguments) => merge::merge(arguments, &cli.global, &terminal),
         Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),
         Command::List(arguments) => list::list(&arguments.paths, &cli.global, &terminal),

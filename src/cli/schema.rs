@@ -3,10 +3,12 @@
 use clap::ValueEnum;
 
 use super::args::SchemaName;
+use super::replay_report::ReplayReport;
+use super::sweep_report::SweepReport;
 use super::terminal::Terminal;
 use crate::demonstration::dataset_schema;
 use crate::learning::skill_schema;
-use crate::report::{Outcome, check_schema, learn_schema, manifest_schema, report_schema};
+use crate::report::{Outcome, check_schema, learn_schema, manifest_schema, report_schema, written_schema};
 use crate::scenario::{learning_schema, scenario_schema};
 
 /// Prints one schema, or the names of all.
@@ -26,6 +28,8 @@ pub(super) fn schema(name: Option<SchemaName>, terminal: &Terminal) -> Outcome {
         SchemaName::Manifest => manifest_schema(),
         SchemaName::Check => check_schema(),
         SchemaName::Learn => learn_schema(),
+        SchemaName::Sweep => written_schema::<SweepReport<'static>>(),
+        SchemaName::Replay => written_schema::<ReplayReport>(),
     };
     terminal.result(&format!("{schema:#}\n"));
     Outcome::Passed

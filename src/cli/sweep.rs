@@ -2,21 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-
 use super::args::{Format, Global};
 use super::failure::Failure;
 use super::judged_run::judged_run;
 use super::load::options;
+use super::progress::Clock;
 use super::sweep_args::SweepArguments;
 use super::sweep_progress::SweepProgress;
+use super::sweep_report::SweepReport;
 use super::sweep_text;
 use super::terminal::Terminal;
 use super::validate::beyond_the_file;
 use crate::batch::{BatchError, NotReady, Plan, Row, Runner, Shard, Summary, SweepFolder, execute};
 use crate::report::Outcome;
 use crate::scenario::{Member, Scenario, Sweep, SweepOptions};
-use crate::simulation::Silent;
 
 /// Checks every member, then runs those that have no row yet. The worst outcome counts.
 pub(super) fn sweep(arguments: &SweepArguments, global: &Global, terminal: &Terminal) -> Outcome {
@@ -73,7 +72,7 @@ fn run(plan: &Plan, arguments: &SweepArguments, global: &Global, terminal: &Term
         terminal.error(&format!("warning: {} damaged rows in {}: these runs are made again\n", folder.log.damaged, place.display()));
     }
     let runner = Runner {
-        run: &|scenario| judged_run(scenario, &Silent).report,
+        run: &|scenario| judged_run(scenario, &Clock::with_limit(global.timeout)).report,
         command: &|member| command(member, &plan.scenario, &arguments.path, global),
     };
     let threads = global.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
@@ -97,8 +96,10 @@ fn command(member: &Member, name: &str, path: &Path, global: &Global) -> String 
     global.set.iter().chain(&member.overrides).for_each(|typed| flag("--set", typed));
     global.robot.iter().for_each(|robot| flag("--robot", robot));
     global.asset_root.iter().for_each(|folder| flag("--asset-root", &folder.display().to_string()));
+    global.timeout.iter().for_each(|limit| flag("--timeout", &limit.as_secs_f64().to_string()));
     flag("--seed", &member.scenario.work.seed().to_string());
     flag("--out", &format!("runs/{name}-sweep/{}", member.index));
+    words.extend(global.lenient.then(|| "--lenient".to_owned()));
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }
 
@@ -124,33 +125,13 @@ fn tell_not_ready(path: &Path, not_ready: &NotReady, terminal: &Terminal) -> Out
     Failure::new(outcome, lines).tell(terminal)
 }
 
-/// What programs read about a sweep.
-#[derive(Serialize)]
-struct Told<'a> {
-    schema_version: u32,
-    scenario: &'a str,
-    outcome: Option<Outcome>,
-    exit_code: Option<u8>,
-    members: u64,
-    shard: String,
-    sweep_hash: &'a str,
-    table: Option<&'a Path>,
-    summary: Option<&'a Summary>,
-}
-
 fn tell(plan: &Plan, shard: Shard, table: &Path, summary: &Summary, terminal: &Terminal) {
     match terminal.format {
         Format::Human => {
             terminal.result(&sweep_text::text(&plan.scenario, summary));
             terminal.note(&format!("written to {}\n", table.display()));
         }
-        Format::Json => terminal.json(&Told {
-            outcome: Some(summary.worst),
-            exit_code: Some(summary.worst.exit_code()),
-            table: Some(table),
-            summary: Some(summary),
-            ..about(plan, shard)
-        }),
+        Format::Json => terminal.json(&SweepReport::of(plan, shard).done(table, summary)),
     }
 }
 
@@ -158,23 +139,9 @@ fn tell_plan(plan: &Plan, shard: Shard, terminal: &Terminal) -> Outcome {
     let of = if shard.is_whole() { String::new() } else { format!(", {} of them in shard {shard}", shard.size(plan.members)) };
     match terminal.format {
         Format::Human => terminal.result(&format!("{}: {} members{of}, all can be run\n", plan.scenario, plan.members)),
-        Format::Json => terminal.json(&about(plan, shard)),
+        Format::Json => terminal.json(&SweepReport::of(plan, shard)),
     }
     Outcome::Passed
-}
-
-fn about(plan: &Plan, shard: Shard) -> Told<'_> {
-    Told {
-        schema_version: 1,
-        scenario: &plan.scenario,
-        outcome: None,
-        exit_code: None,
-        members: plan.members,
-        shard: shard.to_string(),
-        sweep_hash: &plan.hash,
-        table: None,
-        summary: None,
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What can be wrong with demonstrations: where, what was found, what was expected.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -82,13 +83,37 @@ impl DemonstrationError {
     }
 }
 
-/// How many faults are written out; the rest is counted.
-const FAULTS_SHOWN: usize = 20;
+/// How many lines of faults are written out; the rest is counted.
+const LINES_SHOWN: usize = 20;
+/// From how many faults on a column of a file is told in one line: one mistake, such as decimal commas, is then in every row.
+const SAME_MISTAKE: usize = 4;
 
 fn listed(faults: &[Fault]) -> String {
-    let mut lines: Vec<String> = faults.iter().take(FAULTS_SHOWN).map(ToString::to_string).collect();
-    if faults.len() > FAULTS_SHOWN {
-        lines.push(format!("and {} more faults", faults.len() - FAULTS_SHOWN));
+    let (mut groups, mut of_column): (Vec<Vec<&Fault>>, _) = (Vec::new(), BTreeMap::new());
+    for fault in faults {
+        let group =
+            if fault.row.is_some() { *of_column.entry((&fault.place, &fault.column)).or_insert(groups.len()) } else { groups.len() };
+        if group == groups.len() {
+            groups.push(Vec::new());
+        }
+        groups[group].push(fault);
+    }
+    let mut lines: Vec<String> = groups.iter().flat_map(|group| told(group)).collect();
+    if lines.len() > LINES_SHOWN {
+        let more = lines.len() - LINES_SHOWN;
+        lines.truncate(LINES_SHOWN);
+        lines.push(format!("and {more} more"));
     }
     lines.join("\n")
+}
+
+/// Faults of one column of a file: each, or the first and how many more there are.
+fn told(group: &[&Fault]) -> Vec<String> {
+    match group {
+        [first, .., last] if group.len() >= SAME_MISTAKE => {
+            let until = last.row.map_or(String::new(), |row| format!(", the last in row {row}"));
+            vec![format!("{first} (and {} more in this column{until})", group.len() - 1)]
+        }
+        _ => group.iter().map(ToString::to_string).collect(),
+    }
 }

@@ -45,7 +45,11 @@ pub(super) fn about(dataset: &Dataset, notes: &mut Notes) {
     let [shortest, longest] = range(&mut trajectories().map(Trajectory::duration_s));
     let [slow, fast] = range(&mut trajectories().map(|trajectory| 1.0 / step(trajectory)));
     let count = dataset.demonstrations.len();
-    notes.add("", format!("{count} demonstrations of {shortest:.3} to {longest:.3} s, sampled at {slow:.2} to {fast:.2} Hz on average"));
+    let text = match count {
+        1 => format!("1 demonstration of {shortest:.3} s, sampled at {slow:.2} Hz on average"),
+        _ => format!("{count} demonstrations of {shortest:.3} to {longest:.3} s, sampled at {slow:.2} to {fast:.2} Hz on average"),
+    };
+    notes.add("", text);
     for demonstration in &dataset.demonstrations {
         let trajectory = &demonstration.trajectory;
         if trajectory.largest_gap_s() > GAP * step(trajectory) {

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::dmp::forcing_target;
 use super::phmm::Sequence;
 use super::{LearningError, LearningSettings};
-use crate::demonstration::{Dataset, Demonstration, Trajectory};
+use crate::demonstration::{Dataset, Demonstration, DemonstrationError, Fault, Trajectory};
 use crate::math::SmoothingDerivative;
 
 /// One demonstration, ready to be learned from.
@@ -45,7 +45,23 @@ pub fn motion_sequences(dataset: &Dataset, settings: &LearningSettings) -> Resul
 
 /// All demonstrations of a dataset.
 pub(super) fn prepare(dataset: &Dataset, settings: &LearningSettings) -> Result<Vec<Prepared>, LearningError> {
+    let short: Vec<Fault> = dataset.demonstrations.iter().filter_map(|d| too_short(d, settings)).collect();
+    if !short.is_empty() {
+        return Err(DemonstrationError::Invalid(short).into());
+    }
     dataset.demonstrations.iter().map(|d| prepare_one(d, dataset, settings)).collect()
+}
+
+/// The fewest samples that can be differentiated twice.
+fn fewest_samples(settings: &LearningSettings) -> usize {
+    (settings.smoothing_degree + 2) | 1
+}
+
+fn too_short(demonstration: &Demonstration, settings: &LearningSettings) -> Option<Fault> {
+    let (samples, least) = (demonstration.trajectory.samples(), fewest_samples(settings));
+    let expected = format!("at least {least}: the forcing term (4) differentiates them twice");
+    let found = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
+    (samples < least).then(|| Fault { place: demonstration.name.clone(), found, expected, ..Fault::default() })
 }
 
 impl Prepared {
@@ -101,7 +117,7 @@ struct Forcing {
 fn forcing_targets(name: &str, uniform: &Trajectory, dataset: &Dataset, settings: &LearningSettings) -> Result<Forcing, LearningError> {
     let (samples, step) = (uniform.samples(), uniform.duration_s() / (uniform.samples() - 1) as f64);
     let wanted = ((settings.smoothing_window_s / step / 2.0).round() as usize) * 2 + 1;
-    let least = (settings.smoothing_degree + 2) | 1;
+    let least = fewest_samples(settings);
     let window = wanted.clamp(least, least.max((samples - 1) | 1));
     let filter = SmoothingDerivative::new(step, window, settings.smoothing_degree)?;
     if samples < window {

@@ -17,6 +17,10 @@ const LARGE_CONDITION: f64 = 1e6;
 /// Parameters that say too little, and gaps in recordings.
 pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared]) -> Vec<String> {
     let mut warnings = Vec::new();
+    if prepared.len() == 1 {
+        let unknown = "where people do it differently, and so where to comply, is unknown";
+        warnings.push(format!("there is one demonstration only: {unknown}; show more"));
+    }
     let thetas = |of: fn(&Prepared) -> &DVector<f64>| prepared.iter().map(of).collect::<Vec<_>>();
     warnings.extend(about_parameters("theta_m", &dataset.parameters_m(), &thetas(|p| &p.theta_m)));
     warnings.extend(about_parameters("theta_f", &dataset.parameters_f(), &thetas(|p| &p.theta_f)));

@@ -49,7 +49,7 @@ pub use run_report::{
     RunReport, Window,
 };
 pub use run_section::{CriterionLine, FileLine, RunSection};
-pub use schemas::{check_schema, learn_schema, manifest_schema, report_schema};
+pub use schemas::{check_schema, learn_schema, manifest_schema, report_schema, written_schema};
 pub use skill_section::{FitSection, ParameterRange, SkillSection, StateRow};
 pub use table::{figure, table};
 pub use text::text;

@@ -263,6 +263,14 @@ impl RunReport {
         }
     }
 
+    /// The report of a run that ended before its time, with what it showed up to its last good step. Its questions have no answers, and its
+    /// states no hash: there is no whole run to compare with.
+    pub fn cut_short(experiment: &Experiment, left: &RunOutcome, outcome: Outcome, error: &str) -> Self {
+        let mut report = Self { error: Some(error.to_owned()), state_hash: None, ..Self::finished(experiment, left, &[]) };
+        report.end_as(outcome);
+        report
+    }
+
     /// The report of a run that could not be finished.
     pub fn failed(name: &str, seed: u64, outcome: Outcome, error: &str) -> Self {
         Self { error: Some(error.to_owned()), ..Self::empty(name, seed, outcome) }

@@ -9,29 +9,30 @@ use super::{CheckReport, LearnReport, Manifest, RunReport};
 /// The JSON Schema of `report.json`.
 #[must_use]
 pub fn report_schema() -> Value {
-    written::<RunReport>()
+    written_schema::<RunReport>()
 }
 
 /// The JSON Schema of `manifest.json`.
 #[must_use]
 pub fn manifest_schema() -> Value {
-    written::<Manifest>()
+    written_schema::<Manifest>()
 }
 
 /// The JSON Schema of what `cpdmp check --format json` prints.
 #[must_use]
 pub fn check_schema() -> Value {
-    written::<CheckReport>()
+    written_schema::<CheckReport>()
 }
 
 /// The JSON Schema of what `cpdmp learn --format json` prints.
 #[must_use]
 pub fn learn_schema() -> Value {
-    written::<LearnReport>()
+    written_schema::<LearnReport>()
 }
 
-/// The schema of what a type is written as, which may be less than what it can be read from.
-fn written<T: JsonSchema>() -> Value {
+/// The JSON Schema of what a type is written as, which may be less than what it can be read from.
+#[must_use]
+pub fn written_schema<T: JsonSchema>() -> Value {
     let schema: Schema = SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>();
     schema.to_value()
 }

@@ -23,7 +23,8 @@ pub fn text(report: &RunReport) -> String {
         lines.extend(comparison::table(comparison));
         lines.push(String::new());
     }
-    if report.error.is_none() {
+    // Of an execution that ended before its time there is something to say, too.
+    if report.error.is_none() || report.human.is_some() {
         // What a planar experiment touches is in its comparison.
         lines.extend(report.comparison.is_none().then(|| contacts(report)).into_iter().flatten());
         lines.extend(clearances(report));

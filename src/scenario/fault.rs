@@ -166,6 +166,13 @@ impl Fault {
     }
 }
 
+/// Makes keys that nobody knows a warning instead of an error: what a reader in a hurry asks for. They are left aside either way.
+pub(super) fn tolerate_unknown_keys(faults: &mut [Fault]) {
+    for fault in faults.iter_mut().filter(|fault| fault.code == Code::UnknownKey) {
+        fault.severity = Severity::Warning;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,7 +6,7 @@ use super::build_learning;
 use super::checks::is_typed;
 use super::conform::Conform;
 use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
-use super::fault::{Code, Fault, Severity};
+use super::fault::{Code, Fault, Severity, tolerate_unknown_keys};
 use super::layer;
 use super::overrides;
 use super::roots::Roots;
@@ -24,6 +24,8 @@ pub struct LearningOptions {
     pub set: Vec<String>,
     /// Flags that stand for a key of `[learning]`: how the flag is called, the key, its value as typed.
     pub flags: Vec<(&'static str, &'static str, String)>,
+    /// Whether a key that nobody knows is a warning instead of an error.
+    pub lenient: bool,
 }
 
 /// Settings as they were asked for, over the defaults, and what looks odd about them.
@@ -34,6 +36,9 @@ pub fn learning_settings(options: &LearningOptions) -> Result<(LearningSettings,
     let mut sources = Sources::default();
     let mut faults = Vec::new();
     let filled = read(options, &mut sources, &mut faults);
+    if options.lenient {
+        tolerate_unknown_keys(&mut faults);
+    }
     let diagnostics = diagnose(faults, &sources);
     match filled {
         Some(filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => {

@@ -10,7 +10,7 @@ use super::check_planar;
 use super::checks;
 use super::conform::Conform;
 use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
-use super::fault::{Code, Fault, Severity};
+use super::fault::{Code, Fault, Severity, tolerate_unknown_keys};
 use super::layer;
 use super::overrides;
 use super::places::Places;
@@ -69,6 +69,8 @@ pub struct LoadOptions {
     pub robot: Option<String>,
     /// Further folders whose files the scenario may use.
     pub asset_roots: Vec<PathBuf>,
+    /// Whether a key that nobody knows is a warning instead of an error.
+    pub lenient: bool,
 }
 
 impl Scenario {
@@ -77,6 +79,9 @@ impl Scenario {
         let mut sources = Sources::default();
         let mut faults = Vec::new();
         let filled = layered(path, options, &mut sources, &mut faults).map(|(tree, roots)| fill(tree, &sources, &roots, &mut faults));
+        if options.lenient {
+            tolerate_unknown_keys(&mut faults);
+        }
         Self::of(filled, faults, &sources)
     }
 

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::conform::Conform;
 use super::diagnostic::{InvalidScenario, diagnose};
-use super::fault::{Code, Fault, Severity};
+use super::fault::{Code, Fault, Severity, tolerate_unknown_keys};
 use super::key::{Key, Kind, Shape};
 use super::load::{LoadOptions, Scenario, fill, layered};
 use super::overrides;
@@ -39,6 +39,7 @@ pub struct Sweep {
     sources: Sources,
     roots: Roots,
     axes: Vec<Axis>,
+    lenient: bool,
 }
 
 impl Sweep {
@@ -60,11 +61,14 @@ impl Sweep {
             add(&mut axes, axis, &sources);
         }
         faults.extend(contradictions(&axes, options));
+        if options.lenient {
+            tolerate_unknown_keys(&mut faults);
+        }
         let diagnostics = diagnose(faults, &sources);
         if diagnostics.iter().any(|found| found.severity == Severity::Error) {
             return Err(InvalidScenario(diagnostics));
         }
-        Ok(Self { tree, sources, roots, axes })
+        Ok(Self { tree, sources, roots, axes, lenient: options.lenient })
     }
 
     /// How many members there are; 0 when nothing varies.
@@ -92,6 +96,9 @@ impl Sweep {
             faults.extend(overrides::put(&mut tree, key, *origin, value.clone()).err());
         }
         let filled = fill(tree, &self.sources, &self.roots, &mut faults);
+        if self.lenient {
+            tolerate_unknown_keys(&mut faults);
+        }
         let varied = || values.iter().filter(|(key, ..)| *key != "seed");
         let overrides = varied().map(|(key, _, node)| override_of(key, node, &filled)).collect();
         match Scenario::of(Some(filled), faults, &self.sources) {

@@ -1,5 +1,6 @@
 //! Why an experiment could not be carried out.
 
+use super::RunOutcome;
 use crate::control::{ArmModelError, UnmeasuredWrench};
 use crate::demonstration::DemonstrationError;
 use crate::learning::LearningError;
@@ -49,6 +50,14 @@ pub enum SimulationError {
         phase: &'static str,
         /// How far the world was (s).
         time_s: f64,
+    },
+    /// The execution ended before its time, and left something behind.
+    #[error("{reason}")]
+    CutShort {
+        /// Why: the simulation diverged, or was stopped.
+        reason: Box<SimulationError>,
+        /// What there is up to the last good step: nothing in it is judged.
+        left: Box<RunOutcome>,
     },
     /// The scene cannot be as described.
     #[error("{0}: put it on a table, or give the table another size")]

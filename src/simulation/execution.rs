@@ -12,6 +12,8 @@ use crate::world::{Clearance, ContactEpisode, StateTrace, World};
 
 /// What an execution left behind.
 pub(super) struct Executed {
+    /// Why it ended before its time, if it did.
+    pub cut_short: Option<SimulationError>,
     pub records: Vec<StepRecord>,
     pub human_peak_force_n: f64,
     pub goal: Vector3<f64>,
@@ -60,7 +62,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
         phase: Phase { name: "execute", progress },
     };
     run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("execute", 0), steps);
-    let steps = run.run_while(
+    let made = run.run_while(
         steps,
         |_, _| {},
         |now| {
@@ -73,8 +75,10 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
             settled += u64::from(now.controller.telemetry().time_fraction >= 1.0);
             slowest == 1.0 || settled <= settle
         },
-    )?;
+    );
     Ok(Executed {
+        steps: world.step(),
+        cut_short: made.err(),
         records,
         human_peak_force_n,
         goal,
@@ -83,7 +87,6 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
         final_objects: final_objects(&world, &names),
         state_hash: world.state_hash(),
         trace: world.take_trace(),
-        steps,
     })
 }
 

@@ -29,7 +29,7 @@ pub use lesson_record::{LOOKS_HZ, LessonLook, LessonRecord};
 pub use motion_check::{JointExtreme, MotionOutcome, check_motion};
 pub use outcome::{AppliedForce, FinalObject, PhaseSummary, RunOutcome};
 pub use progress::{Progress, Silent};
-pub use run::{History, demonstrate, perform, run};
+pub use run::{History, demonstrate, execute_again, perform, run};
 pub use setup::Setup;
 pub use step_record::{StepRecord, skill_duration_s};
 pub use trace::{TraceDetail, TraceSettings, WorldTrace};

@@ -47,7 +47,8 @@ pub fn demonstrate(setup: &Setup, progress: &dyn Progress) -> Result<(Dataset, H
 /// Executes a learned skill in the experiment's setting; `history` is what came before.
 ///
 /// # Errors
-/// When the skill does not fit the experiment, its start cannot be reached, or the simulation diverges.
+/// When the skill does not fit the experiment or its start cannot be reached; [`SimulationError::CutShort`] when the simulation diverges or is
+/// stopped.
 pub fn perform(
     setup: &Setup,
     dataset: &Dataset,
@@ -75,7 +76,11 @@ pub fn perform(
     outcome.final_objects = executed.final_objects;
     outcome.phases = history.phases;
     outcome.traces = history.traces;
-    Ok(outcome)
+    match executed.cut_short {
+        None => Ok(outcome),
+        Some(reason) if outcome.steps.is_empty() => Err(reason),
+        Some(reason) => Err(SimulationError::CutShort { reason: Box::new(reason), left: Box::new(outcome) }),
+    }
 }
 
 /// What is known before the execution.
@@ -101,6 +106,23 @@ fn planned(setup: &Setup, dataset: &Dataset, learned: &Learned, lessons: Vec<Les
         traces: Vec::new(),
         final_objects: Vec::new(),
     })
+}
+
+/// Executes a skill that was learned before, and returns what is kept of the states: of the skill, and of the world in which it was executed.
+///
+/// # Errors
+/// When the robot or the skill cannot be used, the start cannot be reached, or the simulation diverges or is stopped.
+pub fn execute_again(experiment: &Experiment, skill: &Skill, progress: &dyn Progress) -> Result<Vec<WorldTrace>, SimulationError> {
+    let setup = Setup::new(experiment)?;
+    progress.phase("execute", 0);
+    let executed = execute(&setup, skill, progress)?;
+    match executed.cut_short {
+        None => {
+            let learned = WorldTrace::of_text("learn", "skill", &skill.to_json()?);
+            Ok(std::iter::once(learned).chain(WorldTrace::of("execute", 0, executed.trace)).collect())
+        }
+        Some(reason) => Err(reason),
+    }
 }
 
 /// A warning when the setting lies outside what was demonstrated.

@@ -164,6 +164,25 @@ fn skills_with_features_are_told_inspected_and_generated() {
 }
 
 #[test]
+fn one_mistake_in_every_row_is_told_once() {
+    let rows: String = (0..200).map(|i| format!("{},{};{},5\n", i / 10, i % 10, i)).collect();
+    let folder = Folder::with(&[("strokes.csv", format!("time_s;x_m\n{rows}").as_bytes())]);
+    let said = learn(&folder, &[]);
+    assert_eq!(said.code, Some(3), "{}", said.stderr);
+    assert!(said.stderr.contains("strokes.csv, row 2, column time_s: ") && said.stderr.contains("199 more"), "{}", said.stderr);
+    assert!(said.stderr.lines().count() < 8, "{}", said.stderr);
+}
+
+#[test]
+fn every_demonstration_that_is_too_short_is_named() {
+    let rows = |sequence: usize, count: usize| (0..count).map(|i| format!("{sequence},{},{i}\n", i as f64 * 0.1)).collect::<String>();
+    let text = format!("repetition,time_s,x_m\n{}{}{}", rows(0, 3), rows(1, 30), rows(2, 4));
+    let said = learn(&Folder::with(&[("strokes.csv", text.as_bytes())]), &[]);
+    assert_eq!(said.code, Some(3), "{}", said.stderr);
+    assert!(said.stderr.contains("found 3 samples, expected at least 7") && said.stderr.contains("found 4 samples"), "{}", said.stderr);
+}
+
+#[test]
 fn an_orientation_listed_as_motion_is_told_where_it_belongs() {
     let rows: String = (0..30).map(|i| format!("{},{},0,0,0,1\n", i as f64 * 0.1, i)).collect();
     let csv = format!("time_s,x_m,qx,qy,qz,qw\n{rows}");
@@ -172,4 +191,28 @@ fn an_orientation_listed_as_motion_is_told_where_it_belongs() {
     let said = folder.call(&["learn", "."]);
     assert_eq!(said.code, Some(3), "{}", said.stderr);
     assert!(said.stderr.contains("dataset.toml, motion: found qx, qy, qz, qw"), "{}", said.stderr);
+}
+
+#[test]
+fn one_demonstration_is_learned_and_its_limits_are_told() {
+    let rows: String = (0..60).map(|i| format!("{},{}\n", i as f64 * 0.05, (i as f64 / 20.0).sin())).collect();
+    let said = learn(&Folder::with(&[("strokes.csv", format!("time_s,x_m\n{rows}").as_bytes())]), &[]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(said.stdout.contains("1 demonstration of 2.950 s, sampled at 20.00 Hz"), "{}", said.stdout);
+    assert!(said.stdout.contains("there is one demonstration only"), "{}", said.stdout);
+}
+
+#[test]
+fn numbers_too_large_to_be_squared_are_refused_with_their_row() {
+    let rows: String = (0..60).map(|i| format!("{},{}\n", i as f64 * 0.05, if i == 7 { "1e300" } else { "0.1" })).collect();
+    let said = learn(&Folder::with(&[("strokes.csv", format!("time_s,x_m\n{rows}").as_bytes())]), &[]);
+    assert_eq!((said.code, said.stdout.as_str()), (Some(3), ""), "{}", said.stderr);
+    assert!(said.stderr.contains("strokes.csv, row 9, column x_m: found 1e300"), "{}", said.stderr);
+}
+
+#[test]
+fn long_work_is_announced() {
+    let said = learn(&strokes(), &["--theta", "start", "--cross-validate"]);
+    assert!(said.stderr.contains("once more for each parameter value left out"), "{}", said.stderr);
+    assert!(!learn(&strokes(), &[]).stderr.contains("learning the"), "what is done at once is not announced");
 }

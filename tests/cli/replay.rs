@@ -68,6 +68,56 @@ fn what_differs_without_flags_is_told_with_the_promise() {
     assert!(reasons.contains("has changed since the run") && !reasons.contains("bug"), "{reasons}");
 }
 
+/// Contract: a run that is taken up where its folder can take it up goes on in the same bits as the whole one, to its end; and what differs from
+/// there on is told as it is told of the whole.
+#[test]
+fn a_run_that_is_taken_up_goes_on_in_the_same_bits() {
+    let folder = ran(&[("a.toml", format!("{GOOD}{PUSHED}").as_bytes())], &[]);
+    let changed = ["--set", "human.help.windows_s=[[2.0, 2.5]]"];
+    let whole = told(&folder, &changed).1;
+    for from in ["learn", "execute"] {
+        let (code, same) = told(&folder, &["--from", from]);
+        assert_eq!((code, same["difference"].as_str(), same["from"].as_str()), (Some(0), None, Some(from)), "{same}");
+        assert!(same["hashes"].as_u64().is_some_and(|hashes| hashes > 40), "10 hashes per second of the execution: {same}");
+        let (code, parted) = told(&folder, &[&["--from", from][..], &changed].concat());
+        assert_eq!(code, Some(13));
+        for key in ["difference", "phase", "step", "body", "quantity"] {
+            assert_eq!(parted[key], whole[key], "{key}");
+        }
+    }
+    let skill = folder.path().join("run/skill.json");
+    let text = fs::read_to_string(&skill).expect("a skill");
+    fs::write(&skill, text.replacen("\"stiffness\"", "\"stifness\"", 1)).expect("written");
+    let said = folder.call(&["replay", "run", "--from", "execute"]);
+    assert!(said.code == Some(3) && said.stderr.contains("skill.json"), "a damaged skill: {}", said.stderr);
+    assert_eq!(told(&folder, &["--from", "learn"]).0, Some(0), "is not needed to learn it again");
+    fs::remove_dir_all(folder.path().join("run/demonstrations")).expect("removed");
+    let said = folder.call(&["replay", "run", "--from", "learn"]);
+    assert!(said.code == Some(3) && said.stderr.contains("demonstrations"), "{}", said.stderr);
+    fs::remove_file(folder.path().join("run/state_hashes.parquet")).expect("removed");
+    let said = folder.call(&["replay", "run", "--from", "execute"]);
+    assert!(said.code == Some(3) && said.stderr.contains("no hashes"), "{}", said.stderr);
+}
+
+/// Row 37 of the fault table: a run of another version or machine may differ, and is told so; one that is the same is the same all the same.
+#[test]
+fn another_version_or_architecture_is_named_as_the_reason() {
+    let shipped = include_str!("../../scenarios/obstacle_avoidance.toml");
+    let folder = ran(&[("a.toml", shipped.as_bytes())], &[]);
+    let manifest = folder.path().join("run/manifest.json");
+    let mut other: Value = serde_json::from_str(&fs::read_to_string(&manifest).expect("text")).expect("JSON");
+    other["version"] = "0.0.1".into();
+    other["host"]["arch"] = "abacus".into();
+    fs::write(&manifest, other.to_string()).expect("written");
+    assert_eq!(told(&folder, &[]).0, Some(0), "equal bits are equal whoever made them");
+    other["state_hash"] = "0123456789abcdef".into();
+    fs::write(&manifest, other.to_string()).expect("written");
+    fs::remove_file(folder.path().join("run/state_hashes.parquet")).expect("removed");
+    let (code, changed) = told(&folder, &[]);
+    let reasons = changed["reasons"].to_string();
+    assert!(code == Some(13) && reasons.contains("made by cpdmp 0.0.1 on abacus") && !reasons.contains("bug"), "{changed}");
+}
+
 #[test]
 fn a_planar_run_is_repeated_too() {
     let shipped = include_str!("../../scenarios/obstacle_avoidance.toml");
@@ -75,6 +125,7 @@ fn a_planar_run_is_repeated_too() {
     assert_eq!(told(&folder, &["--jobs", "1"]).0, Some(0));
     let (code, changed) = told(&folder, &["--set", "learning.motion.states=15"]);
     assert_eq!((code, changed["phase"].as_str()), (Some(13), Some("learn")), "what was shown is the same: {changed}");
+    assert_eq!(told(&folder, &["--from", "learn"]).0, Some(2), "it has no demonstrations in its folder");
 }
 
 #[test]

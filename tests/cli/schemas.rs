@@ -83,6 +83,28 @@ fn what_a_run_leaves_fits_the_schemas() {
     assert_valid(&schema("report"), &json_file(&run.join("report.json")), "report.json");
     assert_valid(&schema("manifest"), &json_file(&run.join("manifest.json")), "manifest.json");
     assert_valid(&schema("scenario"), &toml_as_json(&run.join("scenario.toml")), "scenario.toml");
+    let printed = |arguments: &[&str]| -> Value {
+        let said = folder.call(&[arguments, &["--format", "json", "-q"]].concat());
+        assert!(matches!(said.code, Some(0 | 10 | 13)), "{arguments:?}: {}", said.stderr);
+        serde_json::from_str(&said.stdout).expect("JSON")
+    };
+    let (replay, sweep) = (schema("replay"), schema("sweep"));
+    let same = printed(&["replay", "run"]);
+    let members = ["sweep", "run/scenario.toml", "--grid", "learning.motion.states=14,15"];
+    let done = printed(&members);
+    for (schema, printed) in [
+        (&replay, &same),
+        (&replay, &printed(&["replay", "run", "--set", "learning.motion.states=15"])),
+        (&sweep, &printed(&[&members[..], &["--dry-run"]].concat())),
+        (&sweep, &done),
+    ] {
+        assert_valid(schema, printed, &printed.to_string());
+    }
+    for (schema, printed, key) in [(&sweep, &done, "members"), (&sweep, &done, "summary"), (&replay, &same, "outcome")] {
+        let mut wrong = printed.clone();
+        wrong[key] = json!("a word that means nothing here");
+        assert!(!schema.is_valid(&wrong), "{key}");
+    }
 }
 
 #[test]
@@ -110,7 +132,7 @@ fn a_dataset_and_its_skill_fit_the_schemas() {
 fn schemas_completions_and_manual_pages_are_listed_and_written() {
     let folder = Folder::with(&[]);
     let names = folder.call(&["schema"]);
-    for name in ["scenario", "learning", "dataset", "skill", "report", "manifest", "check", "learn"] {
+    for name in ["scenario", "learning", "dataset", "skill", "report", "manifest", "check", "learn", "sweep", "replay"] {
         assert!(names.stdout.lines().any(|line| line.starts_with(name)), "{}", names.stdout);
         schema(name);
     }

@@ -87,21 +87,47 @@ fn row_24_a_pose_out_of_reach_is_told_with_the_distance_and_the_joint_that_stops
     }
 }
 
-#[test]
-fn row_25_a_simulation_that_diverges_ends_with_11_time_and_body() {
+/// A robot with a link so light that no torque leaves it finite.
+fn diverging() -> String {
     let link = BAXTER.find("<link name=\"left_upper_elbow\">").expect("there");
     let (before, after) = BAXTER.split_at(link);
     let tiny = "<inertia ixx=\"1e-200\" ixy=\"0\" ixz=\"0\" iyy=\"1e-200\" iyz=\"0\" izz=\"1e-200\"/>";
     let inertia = &after[after.find("<inertia ").expect("there")..];
     let inertia = &inertia[..inertia.find("/>").expect("there") + 2];
-    let robot = before.to_owned() + &after.replacen(inertia, tiny, 1).replacen("4.31272", "1e-200", 1);
-    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("b.urdf", robot.as_bytes())]);
+    before.to_owned() + &after.replacen(inertia, tiny, 1).replacen("4.31272", "1e-200", 1)
+}
+
+#[test]
+fn row_25_a_simulation_that_diverges_ends_with_11_time_and_body() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("b.urdf", diverging().as_bytes())]);
     let said = folder.call(&["run", "a.toml", "--robot", "b.urdf", "--out", "out"]);
     assert_eq!(said.code, Some(11), "{}{}", said.stdout, said.stderr);
     let report = json(&std::fs::read_to_string(folder.path().join("out/report.json")).expect("a report is written"));
     assert_eq!((report["outcome"].as_str(), report["exit_code"].as_i64()), (Some("diverged"), Some(11)));
     let error = report["error"].as_str().expect("a reason");
     assert!(error.contains("diverged at step 1 (0.001 s): body `left_") && error.contains("`step_s`"), "{error}");
+}
+
+/// Contract: an execution that diverges or is stopped leaves what it showed up to then, and no verdict.
+#[test]
+fn rows_25_and_29_what_an_execution_showed_before_it_ended_is_kept() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("b.urdf", diverging().as_bytes())]);
+    assert_eq!(folder.call(&["run", "a.toml", "--out", "taught", "-q"]).code, Some(0));
+    let again = ["run", "a.toml", "--set", "demonstrations=taught/demonstrations", "--out", "out"];
+    let endless = ["--set", "execution.duration_s=600", "--set", "execution.settle_s=60", "--timeout", "3"];
+    for (more, code, told, fewest) in [(&["--robot", "b.urdf"][..], 11, "diverged at step 1 ", 1), (&endless, 12, "`execute`", 100)] {
+        let said = folder.call(&[&again[..], more].concat());
+        assert_eq!(said.code, Some(code), "{}{}", said.stdout, said.stderr);
+        let report = json(&std::fs::read_to_string(folder.path().join("out/report.json")).expect("a report is written"));
+        assert!(report["error"].as_str().is_some_and(|error| error.contains(told)), "{report}");
+        assert!(report["criteria"].as_array().is_some_and(Vec::is_empty) && report["state_hash"].is_null(), "nothing is judged: {report}");
+        assert!(report["human"]["peak_force_n"].is_number() && said.stdout.contains("did not touch the arm"), "{}", said.stdout);
+        let times = columns(&folder.path().join("out/steps.parquet"), "time_s").remove(0);
+        assert!(times.len() >= fewest && times.iter().all(|time_s| time_s.is_finite()), "{} steps", times.len());
+        assert!(folder.path().join("out/skill.json").is_file());
+        let said = folder.call(&["replay", "out"]);
+        assert!(said.code == Some(3) && said.stderr.contains("did not come to its end"), "{}", said.stderr);
+    }
 }
 
 #[test]
@@ -116,6 +142,12 @@ fn row_27_a_person_never_pushes_harder_than_the_cap_and_may_never_be_needed() {
     assert_eq!(said.code, Some(0));
     assert_eq!((report["human"]["peak_force_n"].as_f64(), report["human"]["contact_s"].as_f64()), (Some(0.0), Some(0.0)));
     assert!(said.stdout.contains("did not touch the arm"), "{}", said.stdout);
+    let helped = "[[criterion]]\nname = \"helped\"\nkind = \"human_force\"\nmax_n = 1\nexpect = \"fail\"\n";
+    std::fs::write(folder.path().join("a.toml"), GOOD.to_owned() + helped).expect("written");
+    let (said, _) = run(&folder, &[&aside[..], &["human.help.force_max_n=3"]].concat());
+    assert_eq!(said.code, Some(0), "it is asked that the person pushes harder than 1 N: {}", said.stdout);
+    let (said, _) = run(&folder, &[&aside[..], &["human.help.reach_m=0"]].concat());
+    assert!(said.code == Some(10) && said.stdout.contains("helped"), "a person who is needed and does not come: {}", said.stdout);
     let limit = ["human.help.kind=push", "human.help.force_n=[20, 0, 0]", "human.help.windows_s=[[1, 2]]"];
     let criterion = GOOD.to_owned() + "[[criterion]]\nname = \"gentle\"\nkind = \"human_force\"\nmax_n = 15\n";
     std::fs::write(folder.path().join("a.toml"), criterion).expect("written");

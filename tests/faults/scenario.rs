@@ -27,6 +27,26 @@ fn an_unknown_key_is_named_with_what_was_meant_and_what_there_is() {
     fault("mass_kg = 0.05", "frictoin = 0.5\nmass_kg = 0.05", "unknown_key", &["did you mean `friction`?", "`rolling_damping_per_s`"]);
 }
 
+/// Contract: `--lenient` makes unknown keys a warning, and nothing else.
+#[test]
+fn lenient_only_warns_of_unknown_keys() {
+    let unknown = GOOD.replace("mass_kg = 0.05", "frictoin = 0.5\nmass_kg = 0.05");
+    let also_wrong = unknown.replace("mass_kg = 0.05", "mass_kg = -1");
+    let folder = Folder::with(&[("a.toml", unknown.as_bytes()), ("b.toml", also_wrong.as_bytes()), ("good.toml", GOOD.as_bytes())]);
+    for command in [&["validate", "a.toml"][..], &["sweep", "a.toml", "--repeat", "2", "--dry-run"]] {
+        assert_eq!(folder.call(command).code, Some(3));
+        let said = folder.call(&[command, &["--lenient"]].concat());
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+    }
+    let said = folder.call(&["validate", "a.toml", "--lenient"]);
+    assert!(said.stderr.contains("warning[unknown_key]") && said.stderr.contains("did you mean `friction`?"), "{}", said.stderr);
+    let said = folder.call(&["validate", "good.toml", "--set", "sed=1", "--lenient"]);
+    assert!(said.code == Some(0) && said.stderr.contains("warning[unknown_key]"), "{}", said.stderr);
+    let said = folder.call(&["validate", "b.toml", "--lenient"]);
+    assert_eq!(said.code, Some(3));
+    assert!(said.stderr.contains("error[out_of_range]") && said.stderr.contains("warning[unknown_key]"), "{}", said.stderr);
+}
+
 #[test]
 fn a_key_of_another_kind_says_whose_it_is() {
     fault("mass_kg = 0.05", "aperture_m = 0.5\nmass_kg = 0.05", "unknown_key", &["it belongs to kind `u_block`"]);

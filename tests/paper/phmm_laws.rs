@@ -289,7 +289,7 @@ fn what_cannot_be_learned_is_said_with_numbers() {
     let (sequences, _) = movements(1, &[1.0, 1.0], 1.0);
     let message = |sequences: &[Sequence], settings: &PhmmSettings| fit(sequences, settings, 0).unwrap_err().to_string();
     let many = PhmmSettings { states: 100, ..Default::default() };
-    assert!(message(&sequences[..1], &many).contains("1 demonstrations with 40 samples cannot support 100 states; use fewer"));
+    assert!(message(&sequences[..1], &many).contains("1 demonstration with 40 samples cannot support 100 states; use fewer"));
     let mut broken = sequences.clone();
     broken[2].values[3 * 5 + 1] = f64::NAN;
     assert!(message(&broken, &PhmmSettings::default()).contains("sequence 2, sample 5, variable 1: not a finite number"));

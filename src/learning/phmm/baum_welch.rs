@@ -46,6 +46,11 @@ struct Memory {
     expectations: Vec<Expectation>,
 }
 
+/// So many demonstrations, in words.
+pub(super) fn demonstrations(count: usize) -> String {
+    if count == 1 { "1 demonstration".to_owned() } else { format!("{count} demonstrations") }
+}
+
 /// Standardised data with everything the iterations need.
 pub(super) struct Problem<'a> {
     pub(super) settings: &'a PhmmSettings,
@@ -66,7 +71,7 @@ impl<'a> Problem<'a> {
         let samples = sequences.iter().map(Sequence::samples).sum();
         if samples < settings.states {
             let (k, n) = (sequences.len(), settings.states);
-            let found = format!("{k} demonstrations with {samples} samples cannot support {n} states");
+            let found = format!("{} with {samples} samples cannot support {n} states", demonstrations(k));
             return Err(LearningError::Data(format!("{found}; use fewer states, a higher learning rate, or show more demonstrations")));
         }
         for (k, sequence) in sequences.iter().enumerate() {

@@ -24,16 +24,30 @@ impl LogDensities {
         let Some(states) = states else { return false };
         self.values.resize(sequence.samples() * n, 0.0);
         self.largest.clear();
+        match d {
+            2 => self.fill(2, &states, &sequence.values),
+            3 => self.fill(3, &states, &sequence.values),
+            4 => self.fill(4, &states, &sequence.values),
+            7 => self.fill(7, &states, &sequence.values),
+            d => self.fill(d, &states, &sequence.values),
+        }
+        true
+    }
+
+    /// Inlined once per literal `d`: the compiler then unrolls the loops over few variables.
+    #[inline(always)]
+    fn fill(&mut self, d: usize, states: &[Whitened], samples: &[f64]) {
+        let n = states.len();
         let (mut columns, mut centred) = (vec![[0.0; BLOCK]; d], vec![[0.0; BLOCK]; d]);
-        for (rows, out) in sequence.values.chunks(BLOCK * d).zip(self.values.chunks_mut(BLOCK * n)) {
+        for (rows, out) in samples.chunks(BLOCK * d).zip(self.values.chunks_mut(BLOCK * n)) {
             for (t, row) in rows.chunks_exact(d).enumerate() {
-                for (column, x) in columns.iter_mut().zip(row) {
+                for (column, x) in columns[..d].iter_mut().zip(row) {
                     column[t] = *x;
                 }
             }
             let mut largest = [f64::NEG_INFINITY; BLOCK];
             for (i, state) in states.iter().enumerate() {
-                let densities = state.log_densities(&columns, &mut centred);
+                let densities = state.log_densities(d, &columns, &mut centred);
                 for (largest, density) in largest.iter_mut().zip(&densities) {
                     *largest = if *density > *largest { *density } else { *largest };
                 }
@@ -43,7 +57,6 @@ impl LogDensities {
             }
             self.largest.extend(&largest[..out.len() / n]);
         }
-        true
     }
 }
 
@@ -69,22 +82,26 @@ impl Whitened {
     }
 
     /// `c - |L^-1 (x_t - mu)|^2 / 2` of a block of samples, given by columns (d of BLOCK).
-    fn log_densities(&self, columns: &[[f64; BLOCK]], centred: &mut [[f64; BLOCK]]) -> [f64; BLOCK] {
-        for ((centred, column), m) in centred.iter_mut().zip(columns).zip(self.mean.iter()) {
-            for (c, x) in centred.iter_mut().zip(column) {
-                *c = x - m;
+    #[inline(always)]
+    fn log_densities(&self, d: usize, columns: &[[f64; BLOCK]], centred: &mut [[f64; BLOCK]]) -> [f64; BLOCK] {
+        let (mean, factor) = (&self.mean.as_slice()[..d], &self.inverse_factor[..d * (d + 1) / 2]);
+        let (columns, centred) = (&columns[..d], &mut centred[..d]);
+        for r in 0..d {
+            for t in 0..BLOCK {
+                centred[r][t] = columns[r][t] - mean[r];
             }
         }
-        let (mut squares, mut factors) = ([0.0; BLOCK], self.inverse_factor.iter());
-        for r in 0..columns.len() {
+        let mut squares = [0.0; BLOCK];
+        for r in 0..d {
+            let row = &factor[r * (r + 1) / 2..][..=r];
             let mut z = [0.0; BLOCK];
-            for (centred, l) in centred[..=r].iter().zip(factors.by_ref()) {
-                for (z, c) in z.iter_mut().zip(centred) {
-                    *z += l * c;
+            for c in 0..=r {
+                for t in 0..BLOCK {
+                    z[t] += row[c] * centred[c][t];
                 }
             }
-            for (square, z) in squares.iter_mut().zip(&z) {
-                *square += z * z;
+            for t in 0..BLOCK {
+                squares[t] += z[t] * z[t];
             }
         }
         squares.map(|square| self.log_normaliser - 0.5 * square)

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::baum_welch::{FitStatus, Problem, Run};
+use super::baum_welch::{FitStatus, Problem, Run, demonstrations};
 use super::empty_states::EMPTY;
 use super::starts::first_model;
 use super::{Group, Phmm, PhmmSettings, Sequence, Start, StateEvidence, gather};
@@ -94,10 +94,10 @@ impl Problem<'_> {
         let full = |c: &Option<Vec<f64>>| c.as_ref().is_some_and(|c| c.iter().all(|count| *count >= EMPTY));
         let usable: Vec<bool> = counts.iter().map(full).collect();
         let (Some(Some(first)), false) = (counts.first(), usable.contains(&true)) else { return Ok(usable) };
-        let (n, k, samples) = (first.len(), self.sequences.len(), self.samples);
+        let (n, shown, samples) = (first.len(), demonstrations(self.sequences.len()), self.samples);
         let (state, count) = first.iter().enumerate().fold((0, f64::INFINITY), |m, (i, c)| if *c < m.1 { (i, *c) } else { m });
         Err(LearningError::Data(format!(
-            "state {state} of {n} holds {count:.2} samples after {MOST_RESEEDINGS} re-seedings, from every start: {k} demonstrations with \
+            "state {state} of {n} holds {count:.2} samples after {MOST_RESEEDINGS} re-seedings, from every start: {shown} with \
              {samples} samples cannot support {n} states; use fewer states, or show more demonstrations"
         )))
     }

@@ -17,7 +17,8 @@ impl Recursions {
         let log_alpha = self.log_forward(log_b);
         let log_likelihood = log_alpha.chunks_exact(self.initial.len()).last().map_or(0.0, log_sum_exp);
         let (responsibilities, transitions) = self.log_backward(log_b, log_alpha);
-        Expectation { log_likelihood, responsibilities, transitions }
+        let spans = vec![0..self.initial.len(); responsibilities.len() / self.initial.len()];
+        Expectation { log_likelihood, responsibilities, transitions, spans, log_scale: None }
     }
 
     /// `ln alpha` (T x N).
@@ -111,6 +112,8 @@ mod tests {
     use nalgebra::DVector;
 
     use super::super::emission::LogDensities;
+    use super::super::scaled_recursion::LEAST_LOG_SCALE;
+    use super::super::{Phmm, Sequence, expect};
     use super::*;
     use crate::math::{stream, uniform};
 
@@ -125,7 +128,12 @@ mod tests {
         };
         let weights: Vec<f64> = paths.iter().map(weight).collect();
         let log_likelihood = log_sum_exp(&weights);
-        let mut e = Expectation { log_likelihood, responsibilities: vec![0.0; log_b.len()], transitions: DMatrix::zeros(n, n) };
+        let mut e = Expectation {
+            log_likelihood,
+            responsibilities: vec![0.0; log_b.len()],
+            transitions: DMatrix::zeros(n, n),
+            ..Expectation::default()
+        };
         for (path, w) in paths.iter().zip(&weights) {
             let p = (w - log_likelihood).exp();
             path.iter().enumerate().for_each(|(t, i)| e.responsibilities[t * n + i] += p);
@@ -134,10 +142,10 @@ mod tests {
         e
     }
 
-    fn scaled(chain: &mut Recursions, log_b: &[f64]) -> Option<Expectation> {
+    fn scaled(chain: &mut Recursions, least: f64, log_b: &[f64]) -> Option<Expectation> {
         let mut expectation = Expectation::default();
         let largest = log_b.chunks_exact(chain.initial.len()).map(|row| row.iter().copied().fold(f64::NEG_INFINITY, f64::max)).collect();
-        chain.scaled(&mut LogDensities { values: log_b.to_vec(), largest }, &mut expectation).then_some(expectation)
+        chain.scaled(&mut LogDensities { values: log_b.to_vec(), largest }, least, &mut expectation).then_some(expectation)
     }
 
     fn assert_equal(a: &Expectation, b: &Expectation, what: &str) {
@@ -169,7 +177,11 @@ mod tests {
             let (initial, transition, log_b) = random_chain(seed, 20.0);
             let (mut chain, truth) = (Recursions::of(&initial, &transition), brute_force(&initial, &transition, &log_b));
             assert_equal(&chain.in_logarithms(&log_b), &truth, "logarithms");
-            assert_equal(&scaled(&mut chain, &log_b).unwrap(), &truth, "scaled");
+            let first = scaled(&mut chain, LEAST_LOG_SCALE, &log_b).unwrap();
+            let log_scale = first.log_scale.unwrap();
+            assert_equal(&first, &truth, "scaled");
+            assert_equal(&scaled(&mut chain, log_scale - 1e-6, &log_b).unwrap(), &truth, "scaled with the highest threshold");
+            assert!(scaled(&mut chain, log_scale + 1e-6, &log_b).is_none(), "a likelihood below the least one is refused");
         }
     }
 
@@ -179,9 +191,28 @@ mod tests {
             let (initial, transition, log_b) = random_chain(seed, 5000.0);
             let (mut chain, truth) = (Recursions::of(&initial, &transition), brute_force(&initial, &transition, &log_b));
             assert_equal(&chain.in_logarithms(&log_b), &truth, "logarithms");
-            if let Some(scaled) = scaled(&mut chain, &log_b) {
+            if let Some(scaled) = scaled(&mut chain, LEAST_LOG_SCALE, &log_b) {
                 assert_equal(&scaled, &truth, "scaled");
             }
         }
+    }
+
+    #[test]
+    fn a_likelihood_below_the_foreseen_one_changes_nothing() {
+        let model = Phmm {
+            initial: DVector::from_vec(vec![0.9, 0.1]),
+            transition: DMatrix::from_row_slice(2, 2, &[0.9, 0.1, 0.2, 0.8]),
+            weights: vec![DMatrix::zeros(2, 0); 2],
+            means: vec![DVector::zeros(2), DVector::from_element(2, 3.0)],
+            covariances: vec![DMatrix::identity(2, 2); 2],
+        };
+        let mut random = stream(0, "values", 0);
+        let values = (0..100).map(|_| uniform(&mut random, -1.0, 4.0)).collect();
+        let sequence = Sequence { values, dimension: 2, theta: DVector::zeros(0) };
+        let fresh = expect(&model, &sequence).unwrap();
+        assert!(fresh.log_scale.unwrap() < -10.0, "the foreseen likelihood below is too high");
+        let mut misled = Expectation { log_scale: Some(0.0), ..Expectation::default() };
+        assert!(Recursions::of(&model.initial, &model.transition).expect(&model, &sequence, &mut misled));
+        assert_eq!((misled.log_likelihood, misled.responsibilities), (fresh.log_likelihood, fresh.responsibilities));
     }
 }

@@ -21,6 +21,7 @@ mod kmeans;
 mod log_recursion;
 mod maximisation;
 mod model;
+mod scaled_recursion;
 mod settings;
 mod standardisation;
 mod starts;

@@ -71,7 +71,8 @@ fn certain(labels: &[usize], states: usize) -> Expectation {
     for (t, label) in labels.iter().enumerate() {
         responsibilities[t * states + label] = 1.0;
     }
-    Expectation { log_likelihood: 0.0, responsibilities, transitions: DMatrix::zeros(states, states) }
+    let spans = labels.iter().map(|label| *label..label + 1).collect();
+    Expectation { responsibilities, transitions: DMatrix::zeros(states, states), spans, ..Expectation::default() }
 }
 
 /// Each state lasts as long as its labels do in the average sequence.

@@ -23,35 +23,65 @@ const NO_SHARE: f64 = 1e-40;
 /// Sums are taken about the model's present means, so that the small spread inside a state does not drown in rounding.
 #[must_use]
 pub fn gather(model: &Phmm, sequence: &Sequence, expectation: &Expectation) -> Vec<Group> {
-    let (n, d) = (model.states(), model.dimension());
-    let centres: Vec<DVector<f64>> = (0..n).map(|i| model.mean_at(i, &sequence.theta)).collect();
-    let (mut counts, mut sums, mut squares) = (vec![0.0; n], vec![0.0; n * d], vec![0.0; n * d * d]);
-    let mut r = vec![0.0; d];
-    for (x, gamma) in sequence.values.chunks_exact(d).zip(expectation.responsibilities.chunks_exact(n)) {
-        for (i, g) in gamma.iter().enumerate().filter(|(_, g)| **g > NO_SHARE) {
-            counts[i] += g;
-            for (a, r_a) in r.iter_mut().enumerate() {
-                *r_a = x[a] - centres[i][a];
-            }
-            for a in 0..d {
-                let weighted = g * r[a];
-                sums[i * d + a] += weighted;
-                for (s, r_b) in squares[(i * d + a) * d..(i * d + a) * d + d].iter_mut().zip(&r).take(a + 1) {
-                    *s += weighted * r_b;
+    let sums = match model.dimension() {
+        2 => Sums::of(2, model, sequence, expectation),
+        3 => Sums::of(3, model, sequence, expectation),
+        4 => Sums::of(4, model, sequence, expectation),
+        7 => Sums::of(7, model, sequence, expectation),
+        d => Sums::of(d, model, sequence, expectation),
+    };
+    (0..model.states()).map(|state| sums.group(state)).collect()
+}
+
+/// Sums over a sequence about a centre of each state.
+struct Sums {
+    centres: Vec<DVector<f64>>,
+    /// `sum_t gamma` (N).
+    counts: Vec<f64>,
+    /// `sum_t gamma r` with `r = x - centre` (N of d).
+    first: Vec<f64>,
+    /// `sum_t gamma r r^T`: the lower triangle, row by row (N of d x d).
+    second: Vec<f64>,
+}
+
+impl Sums {
+    /// Inlined once per literal `d`: the compiler then unrolls the loops over few variables.
+    #[inline(always)]
+    fn of(d: usize, model: &Phmm, sequence: &Sequence, expectation: &Expectation) -> Self {
+        let n = model.states();
+        let centres: Vec<DVector<f64>> = (0..n).map(|i| model.mean_at(i, &sequence.theta)).collect();
+        let (mut counts, mut first, mut second) = (vec![0.0; n], vec![0.0; n * d], vec![0.0; n * d * d]);
+        let mut r = vec![0.0; d];
+        let rows = sequence.values.chunks_exact(d).zip(expectation.responsibilities.chunks_exact(n));
+        for ((x, gamma), states) in rows.zip(&expectation.spans) {
+            for i in states.clone().filter(|i| gamma[*i] > NO_SHARE) {
+                let (g, centre) = (gamma[i], &centres[i].as_slice()[..d]);
+                let (first, second) = (&mut first[i * d..][..d], &mut second[i * d * d..][..d * d]);
+                counts[i] += g;
+                for a in 0..d {
+                    r[a] = x[a] - centre[a];
+                }
+                for a in 0..d {
+                    let weighted = g * r[a];
+                    first[a] += weighted;
+                    for b in 0..=a {
+                        second[a * d + b] += weighted * r[b];
+                    }
                 }
             }
         }
+        Self { centres, counts, first, second }
     }
-    (0..n).map(|i| group(counts[i], &centres[i], &sums[i * d..(i + 1) * d], &squares[i * d * d..(i + 1) * d * d])).collect()
-}
 
-/// From sums about a centre; `squares` holds the lower triangle, row by row.
-fn group(count: f64, centre: &DVector<f64>, sums: &[f64], squares: &[f64]) -> Group {
-    let d = centre.len();
-    if count <= 0.0 {
-        return Group { count: 0.0, mean: centre.clone(), scatter: DMatrix::zeros(d, d) };
+    fn group(&self, state: usize) -> Group {
+        let (count, centre) = (self.counts[state], &self.centres[state]);
+        let d = centre.len();
+        if count <= 0.0 {
+            return Group { count: 0.0, mean: centre.clone(), scatter: DMatrix::zeros(d, d) };
+        }
+        let offset = DVector::from_column_slice(&self.first[state * d..][..d]) / count;
+        let squares = &self.second[state * d * d..][..d * d];
+        let second = DMatrix::from_fn(d, d, |a, b| squares[a.max(b) * d + a.min(b)]);
+        Group { count, mean: centre + &offset, scatter: second - count * &offset * offset.transpose() }
     }
-    let offset = DVector::from_column_slice(sums) / count;
-    let second = DMatrix::from_fn(d, d, |a, b| squares[a.max(b) * d + a.min(b)]);
-    Group { count, mean: centre + &offset, scatter: second - count * &offset * offset.transpose() }
 }

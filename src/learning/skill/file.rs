@@ -18,6 +18,15 @@ pub fn skill_schema() -> serde_json::Value {
     schemars::schema_for!(File).to_value()
 }
 
+/// A fault of the content, in the words of this program.
+fn worded(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    match text.strip_prefix("missing field `").and_then(|rest| rest.split_once('`')) {
+        Some((key, place)) => format!("the key \"{key}\" is missing{place}"),
+        None => text,
+    }
+}
+
 impl Skill {
     /// The skill as JSON text, with its checksum.
     ///
@@ -51,7 +60,7 @@ impl Skill {
         }
         checksum::verify(&value)?;
         // The text is read again because only then a fault has a line and a column.
-        let file: File = serde_json::from_str(text).map_err(|e| LearningError::Skill(e.to_string()))?;
+        let file: File = serde_json::from_str(text).map_err(|e| LearningError::Skill(worded(&e)))?;
         let skill = file.into_skill()?;
         skill.check()?;
         Ok(skill)

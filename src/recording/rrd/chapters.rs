@@ -9,7 +9,7 @@ use super::paths::COLUMNS;
 use super::recorder::{Fault, Recorder};
 use super::{
     blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, paths, replay_figure, robot_figure,
-    scene_figure, spread_figure, state_figure, teaching_figure,
+    scene_figure, spread_figure, state_figure, task_states, teaching_figure,
 };
 use crate::robot::{RobotModel, Shape};
 use crate::simulation::{Experiment, LessonRecord, RunOutcome};
@@ -60,8 +60,7 @@ impl Chapters<'_> {
         paths::log_executed(&recorder, records)?;
         state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.middle))?;
         force_figure::log_forces(&recorder, records, outcome.skill.force.is_some())?;
-        let betas = &outcome.skill.compliance.beta[..outcome.skill.motion.states()];
-        lanes::log_lanes(&recorder, records, betas)?;
+        lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
     }

@@ -1,0 +1,110 @@
+//! What the folder of a run says to those who want to make it again.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::args::{Global, Phase};
+use super::files::STATE_LOG;
+use crate::recording::read_state_log;
+use crate::report::{Host, hash_file};
+use crate::scenario::LoadOptions;
+use crate::simulation::WorldTrace;
+
+/// What the folder of a run says about it.
+pub(super) struct Recorded {
+    manifest: Value,
+    /// Hash over every state of the run.
+    pub state_hash: String,
+    /// Hashes on the way, world by world.
+    pub traces: Vec<WorldTrace>,
+}
+
+impl Recorded {
+    /// Reads the folder, or says why it holds no run that can be compared with.
+    pub fn read(folder: &Path) -> Result<Self, String> {
+        let place = folder.join("manifest.json");
+        let text =
+            std::fs::read_to_string(&place).map_err(|error| format!("{} is no run: {}: {error}", folder.display(), place.display()))?;
+        let manifest: Value = serde_json::from_str(&text).unwrap_or_default();
+        if manifest["format"] != "cpdmp-run" {
+            return Err(format!("{} is not the folder of a run", folder.display()));
+        }
+        let Some(state_hash) = manifest["state_hash"].as_str().map(str::to_owned) else {
+            return Err(format!("{} holds a run that did not come to its end: there is nothing to compare with", folder.display()));
+        };
+        let traces = match read_state_log(&folder.join(STATE_LOG)) {
+            Ok(traces) => traces,
+            // A run may be recorded without them; its last hash is in the manifest.
+            Err(_) if !folder.join(STATE_LOG).exists() => Vec::new(),
+            Err(error) => return Err(error.to_string()),
+        };
+        Ok(Self { manifest, state_hash, traces })
+    }
+
+    /// The part of it that a repetition from that phase on is held against.
+    pub fn from(self, phase: Option<Phase>) -> Result<Self, String> {
+        if phase.is_none() {
+            return Ok(self);
+        }
+        // The hash of the skill is part of both: it tells whether the folder's skill is the one that was learned.
+        let traces: Vec<WorldTrace> =
+            self.traces.into_iter().filter(|world| ["learn", "execute"].contains(&world.phase.as_str())).collect();
+        if traces.is_empty() {
+            return Err(
+                "the run kept no hashes on the way (`recording.hash_every_steps`): make it again as a whole, without --from".to_owned()
+            );
+        }
+        Ok(Self { state_hash: last_hash(&traces), traces, ..self })
+    }
+
+    /// The files that decided the run, as they are found from here, with the hash that each had.
+    fn inputs(&self) -> Vec<(PathBuf, Option<&str>)> {
+        let directory = Path::new(self.manifest["directory"].as_str().unwrap_or_default());
+        let inputs = self.manifest["inputs"].as_array().map_or(&[][..], Vec::as_slice);
+        let input = |input: &'_ Value| Some(directory.join(input["path"].as_str()?));
+        inputs.iter().filter_map(|found| Some((input(found)?, found["xxh3_64"].as_str()))).collect()
+    }
+
+    /// The options, with the folders of those files allowed: the run was allowed to use them.
+    pub fn may_use(&self, options: &LoadOptions) -> LoadOptions {
+        let folders = self.inputs().into_iter().filter_map(|(path, _)| Some(path.parent()?.to_path_buf()));
+        let mut allowed = options.clone();
+        allowed.asset_roots.extend(folders);
+        allowed
+    }
+
+    /// Why bits may differ, as far as the folder tells.
+    pub fn reasons(&self, global: &Global) -> Vec<String> {
+        let mut reasons = Vec::new();
+        if is_changed(global) {
+            reasons.push("flags make it another run than the recorded one".to_owned());
+        }
+        // The scenario's own files do not matter: what they said is in the folder's scenario.toml.
+        let decisive = self.inputs().into_iter().filter(|(path, _)| path.extension().is_none_or(|extension| extension != "toml"));
+        let changed = decisive.filter(|(path, hash)| hash_file(path).xxh3_64.as_deref() != *hash);
+        reasons.extend(changed.map(|(path, _)| format!("{} has changed since the run", path.display())));
+        let text = |value: &Value| value.as_str().unwrap_or("unknown").to_owned();
+        let (version, host) = (text(&self.manifest["version"]), Host::this());
+        let arch = text(&self.manifest["host"]["arch"]);
+        if version != env!("CARGO_PKG_VERSION") || arch != host.arch {
+            let this = format!("cpdmp {} on {}", env!("CARGO_PKG_VERSION"), host.arch);
+            reasons.push(format!("made by cpdmp {version} on {arch}, repeated by {this}: equal bits are promised for the same program on the same architecture only"));
+        }
+        if reasons.is_empty() {
+            reasons.push("same version, architecture and input: equal bits are promised for the same binary, so this is another build, or a bug to report".to_owned());
+        }
+        reasons
+    }
+}
+
+/// Whether flags make the repetition another run.
+pub(super) fn is_changed(global: &Global) -> bool {
+    !global.set.is_empty() || global.seed.is_some() || global.robot.is_some()
+}
+
+/// The last hash of the last world.
+pub(super) fn last_hash(traces: &[WorldTrace]) -> String {
+    let last = traces.last().and_then(|world| world.trace.hashes.last());
+    last.map_or_else(String::new, |hash| format!("{hash:016x}"))
+}
