@@ -42,6 +42,37 @@ pub enum CriterionKind {
         /// The objects' names.
         objects: Vec<String>,
     },
+    /// The door of a cabinet is open at the end. Value: its opening (rad).
+    DoorOpen {
+        /// The cabinet's name.
+        object: String,
+        /// The smallest opening (rad).
+        min_rad: f64,
+    },
+    /// The arc of the handle in use about the hinge is followed. Value: rms distance from the arc in the horizontal plane over the run (m).
+    ArcFollowed {
+        /// The cabinet's name.
+        object: String,
+        /// What follows it.
+        of: Followed,
+        /// The largest rms distance (m).
+        max_m: f64,
+    },
+    /// The handle in use stays in the hook from the start to the end. Value: largest horizontal distance of the tool from its axis (m).
+    HookKept {
+        /// The cabinet's name.
+        object: String,
+        /// The largest distance (m): half the width of the hook's pocket, less what the bar needs.
+        max_m: f64,
+    },
+    /// The objects never push or pull harder on fingers and tool than this, as the engine solved it. Value: the largest force (N).
+    ToolForce {
+        /// Over which time the force is averaged, rounded up to whole logged steps (s); 0: at every engine step. A blow of stiff parts is
+        /// over within a step of the engine, so that its force says more about the step than about the blow: its momentum is what counts.
+        mean_over_s: f64,
+        /// The largest force (N).
+        max_n: f64,
+    },
     /// The robot and what it holds stay away from the objects. Value: the smallest distance (m).
     Clearance {
         /// The objects' names.
@@ -138,6 +169,15 @@ pub enum CriterionKind {
     },
 }
 
+/// What follows an arc.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Followed {
+    /// The tool, in the simulated world.
+    Tool,
+    /// Where the controller wants the tool.
+    Reference,
+}
+
 /// Settings of a planar experiment, by what was demonstrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanarSettings {
@@ -166,7 +206,7 @@ pub struct Criterion {
     pub limit: f64,
     /// How far the value is on the right side of the limit, in `unit` (negative: on the wrong side).
     pub margin: f64,
-    /// `m`, `N`, `s`, `pairs` or `settings`.
+    /// `m`, `rad`, `N`, `s`, `pairs` or `settings`.
     pub unit: &'static str,
     /// When it first failed (s), if it failed at a moment.
     pub first_failed_time_s: Option<f64>,

@@ -1,6 +1,8 @@
 //! Answers a scenario's criteria.
 
+use super::door;
 use super::judge_objects::{expected_force, no_collision, object_at};
+use super::tool_force::tool_force;
 use super::windows::{Window, compliance_windows, human_windows, windows};
 use super::{Criterion, CriterionKind, CriterionSpec};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
@@ -56,6 +58,10 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
             (object_in_container(outcome, experiment, object, container, *speed_max_m_per_s), true)
         }
         CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
+        CriterionKind::DoorOpen { object, min_rad } => (door::open(outcome, experiment, object, *min_rad), false),
+        CriterionKind::ArcFollowed { object, of, max_m } => (door::arc_followed(steps, experiment, object, *of, *max_m), true),
+        CriterionKind::HookKept { object, max_m } => (door::hook_kept(steps, experiment, object, *max_m), true),
+        CriterionKind::ToolForce { mean_over_s, max_n } => (tool_force(outcome, *mean_over_s, *max_n), true),
         CriterionKind::Clearance { objects, links, min_m } => (clearance_of(&outcome.clearances, objects, links, *min_m), false),
         // Asked of planar experiments only: of an arm there is nothing to measure.
         CriterionKind::PlanarClearance { min_m, .. } | CriterionKind::PlanarSidesPassed { min_m, .. } => {

@@ -2,6 +2,7 @@
 
 mod allowed_contact;
 mod criterion;
+mod door;
 mod judge;
 mod judge_motion;
 mod judge_objects;
@@ -9,10 +10,11 @@ mod judge_planar;
 mod place;
 mod planar_trace;
 mod replay_difference;
+mod tool_force;
 mod windows;
 
 pub use allowed_contact::{AllowedContact, allow};
-pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, PlanarSettings};
+pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 pub use judge::judge;
 pub use judge_motion::judge_motion;
 pub use judge_planar::judge_planar;

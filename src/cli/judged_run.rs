@@ -99,6 +99,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         | SimulationError::Urdf(_)
         | SimulationError::Arm(_)
         | SimulationError::Unreachable { .. }
+        | SimulationError::Swing { .. }
         | SimulationError::JointCounts(_)
         | SimulationError::World(_)
         | SimulationError::Scene(_)

@@ -79,6 +79,18 @@ impl ArmModel {
         self.inverse.solve(&self.chain, base_from_tool, &self.rest_rad, q, &mut self.state)
     }
 
+    /// As [`Self::reach`], starting at the posture in `q`: the nearest posture, in which the arm need not change its branch.
+    pub fn reach_on(&mut self, base_from_tool: &Isometry3<f64>, q: &mut [f64]) -> IkOutcome {
+        self.inverse.solve(&self.chain, base_from_tool, &self.rest_rad, q, &mut self.state)
+    }
+
+    /// Name of the joint that is nearest to one of its limits at `q` (rad).
+    pub fn nearest_to_limit(&self, q: &[f64]) -> &str {
+        let room = |(joint, q): &(&Joint, &f64)| (joint.upper - **q).min(**q - joint.lower);
+        let nearest = self.chain.joints().zip(q).min_by(|a, b| room(a).total_cmp(&room(b)));
+        nearest.map_or("", |(joint, _)| joint.name.as_str())
+    }
+
     /// Joint velocities (rad/s) that make the tool follow `target`, which moves with `twist` (m/s, rad/s, base axes): one control tick.
     pub fn follow(&mut self, target: &Isometry3<f64>, twist: &Vector6<f64>, step_s: f64, q: &[f64], v: &mut [f64]) {
         let settings = FollowSettings::default();

@@ -50,6 +50,8 @@ pub fn step_columns(joints: usize, objects: &[&str]) -> Vec<StepColumn> {
     table.real("activation", "how far the coupling is switched on, 0 to 1", |r| r.activation);
     table.real("gripper_command", "commanded opening of the gripper, 0 closed to 1 open", |r| r.gripper_command);
     table.real("gripper_opening", "measured opening of the gripper, 0 closed to 1 open", |r| r.gripper_opening);
+    table.vector("tool_force", "_n", "force of the objects on fingers and tool, as the engine solved it", |r| r.tool_force);
+    table.vector("tool_impulse", "_ns", "integral of that force over every engine step since the start", |r| r.tool_impulse);
     table.vector("human_force", "_n", "force of the person on the arm", |r| r.human.force);
     table.vector("human_point", "_m", "where the person's force acts", |r| r.human.point.coords);
     for (index, object) in objects.iter().enumerate() {

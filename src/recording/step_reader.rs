@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::path::Path;
 
-use nalgebra::{Point3, Vector6};
+use nalgebra::{Point3, Vector3, Vector6};
 
 use super::RecordingError;
 use super::step_log::STEP_LOG_VERSION;
@@ -61,6 +61,9 @@ fn record(table: &StepTable, row: usize, objects: &[String]) -> Result<StepRecor
         gripper_command: real("gripper_command")?,
         gripper_opening: real("gripper_opening")?,
         human: AppliedForce { point: Point3::from(vector("human_point", "_m")?), force: vector("human_force", "_n")? },
+        // Logs of earlier programs do not have these.
+        tool_force: vector("tool_force", "_n").unwrap_or_else(|_| Vector3::repeat(f64::NAN)),
+        tool_impulse: vector("tool_impulse", "_ns").unwrap_or_else(|_| Vector3::repeat(f64::NAN)),
         bodies: Vec::new(),
         objects: objects.iter().map(|prefix| table.pose(row, prefix)).collect::<Result<_, _>>()?,
         kinetic_energy_j: real("kinetic_energy_j")?,

@@ -30,7 +30,7 @@ mod model;
 mod urdf;
 mod wrench_estimate;
 
-pub use baxter::{bare_baxter, baxter, electric_gripper};
+pub use baxter::{bare_baxter, baxter, baxter_with_hook, electric_gripper, hook};
 pub use chain::{ChainError, ChainState, SerialChain};
 pub use follow::FollowSettings;
 pub use inverse_kinematics::{IkOutcome, IkSettings, InverseKinematics, pose_error};

@@ -1,7 +1,7 @@
 //! A filled tree to what a run must show.
 
 use super::tree::Node;
-use crate::check::{AllowedContact, CriterionKind, CriterionSpec, Expectation, PlanarSettings};
+use crate::check::{AllowedContact, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 use crate::planar::Method;
 
 /// What a scenario asks of the run.
@@ -45,6 +45,13 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
             speed_max_m_per_s: table.number("speed_max_m_per_s"),
         },
         "no_contact" => CriterionKind::NoContact { objects: table.texts("objects") },
+        "door_open" => CriterionKind::DoorOpen { object: object(), min_rad: table.number("min_rad") },
+        "arc_followed" => {
+            let of = if table.text("of") == "reference" { Followed::Reference } else { Followed::Tool };
+            CriterionKind::ArcFollowed { object: object(), of, max_m: max_m() }
+        }
+        "hook_kept" => CriterionKind::HookKept { object: object(), max_m: max_m() },
+        "tool_force" => CriterionKind::ToolForce { mean_over_s: table.number("mean_over_s"), max_n: table.number("max_n") },
         "clearance" => {
             CriterionKind::Clearance { objects: table.texts("objects"), links: table.texts("links"), min_m: table.number("min_m") }
         }

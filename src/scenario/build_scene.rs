@@ -2,7 +2,7 @@
 
 use super::tree::Node;
 use crate::simulation::{TeachingPlan, Waypoint};
-use crate::world::{Object, ObjectKind, Solid};
+use crate::world::{Cabinet, Grip, Object, ObjectKind, Solid};
 
 /// An object of the scene; none if its kind is faulty.
 pub(super) fn object(table: &Node) -> Option<Object> {
@@ -42,6 +42,7 @@ pub(super) fn object(table: &Node) -> Option<Object> {
             wall_thickness_m: table.number("wall_thickness_m"),
             friction: table.quantity("friction"),
         },
+        "cabinet" => ObjectKind::Cabinet(cabinet(table)),
         _ => return None,
     };
     Some(Object {
@@ -59,12 +60,38 @@ fn solid(table: &Node) -> Solid {
     Solid { mass_kg: table.quantity("mass_kg"), friction: table.quantity("friction"), fixed: table.flag("fixed") }
 }
 
+fn cabinet(table: &Node) -> Cabinet {
+    Cabinet {
+        door_size_m: table.vector2("door_size_m"),
+        bottom_height_m: table.number("bottom_height_m"),
+        depth_m: table.number("depth_m"),
+        mass_kg: table.number("mass_kg"),
+        friction_nm: table.number("friction_nm"),
+        damping_nms_per_rad: table.number("damping_nms_per_rad"),
+        seal_nm_per_rad: table.number("seal_nm_per_rad"),
+        seal_travel_rad: table.number("seal_travel_rad"),
+        opening_max_rad: table.number("opening_max_rad"),
+        handles: table.size("handles"),
+        first_handle_m: table.number("first_handle_m"),
+        handle_spacing_m: table.number("handle_spacing_m"),
+        handle_lateral_m: table.quantity("handle_lateral_m"),
+        handle_length_m: table.number("handle_length_m"),
+        handle_radius_m: table.number("handle_radius_m"),
+        handle_standoff_m: table.number("handle_standoff_m"),
+        grip: if table.text("grip") == "contact" { Grip::Contact } else { Grip::Clamp },
+    }
+}
+
 /// How the virtual human teaches.
 pub(super) fn teaching(table: &Node) -> TeachingPlan {
     let grid = table.section("grid");
     TeachingPlan {
         grid: grid.entries().iter().map(|entry| (entry.key.clone(), entry.node.as_numbers())).collect(),
+        repetitions: table.size("repetitions"),
         tool_yaw_rad: table.number("tool_yaw_rad"),
+        tool_pitch_rad: table.number("tool_pitch_rad"),
+        tool_roll_rad: table.number("tool_roll_rad"),
+        turns_with_door: table.number("turns_with_door"),
         zero_gravity_damping_nms_per_rad: table.number("zero_gravity_damping_nms_per_rad"),
         duration_s: table.number("duration_s"),
         record_rate_hz: table.number("record_rate_hz"),
@@ -79,6 +106,7 @@ fn waypoint(table: &Node) -> Waypoint {
         time_s: table.number("time_s"),
         at: table.optional_text("at"),
         offset_m: table.array("offset_m"),
+        opening_rad: table.optional_number("opening_rad"),
         gripper: table.optional_number("gripper"),
     }
 }

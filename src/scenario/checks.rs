@@ -1,6 +1,7 @@
 //! What no single key can tell: names that refer to something, times that rise, settings that agree with each other.
 
 use super::check_coupling::coupling;
+use super::check_doors::{openings, square_cabinets};
 use super::check_names::{references, unique_names};
 use super::check_planar::planar;
 use super::check_taught::{grid, parameters_are_taught};
@@ -16,6 +17,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     unique_names(scenario, "criterion", &mut faults);
     unique_names(scenario, "allowed_contact", &mut faults);
     references(scenario, &mut faults);
+    square_cabinets(scenario, &mut faults);
     planar(scenario, &mut faults);
     if is_typed(scenario, "planar") {
         return faults;
@@ -25,6 +27,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
         grid(scenario, teaching, &mut faults);
         parameters_are_taught(scenario, teaching, &mut faults);
         waypoints(teaching, &mut faults);
+        openings(scenario, teaching, &mut faults);
     }
     joints(scenario, &mut faults);
     coupling(scenario, &mut faults);

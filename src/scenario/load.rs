@@ -272,6 +272,14 @@ mod tests {
             inner_size_m = [0.2, 0.2]
             wall_height_m = 0.1
             [[object]]
+            name = "cabinet"
+            kind = "cabinet"
+            center_m = [1.5, 0.6]
+            door_size_m = [0.4, 0.4]
+            bottom_height_m = 0.1
+            handle_lateral_m = "height_m"
+            grip = "contact"
+            [[object]]
             name = "peg"
             kind = "cylinder"
             center_m = [0.6, 0.4]
@@ -301,6 +309,10 @@ mod tests {
         let criteria = [
             "object_in_container\"\nobject = \"toy\"\ncontainer = \"basket\"",
             "no_contact\"\nobjects = [\"block\"]",
+            "door_open\"\nobject = \"cabinet\"\nmin_rad = 0.9",
+            "arc_followed\"\nobject = \"cabinet\"\nof = \"reference\"\nmax_m = 0.01",
+            "hook_kept\"\nobject = \"cabinet\"\nmax_m = 0.01",
+            "tool_force\"\nmean_over_s = 0.02\nmax_n = 20",
             "clearance\"\nobjects = [\"block\"]\nmin_m = 0.005",
             "clearance\"\nobjects = [\"table\"]\nlinks = [\"left_hand\"]\nmin_m = 0.01",
             "no_collision\"",
@@ -321,6 +333,6 @@ mod tests {
         assert_eq!(again.criteria, typed.criteria);
         assert_eq!(again.allowed_contacts, typed.allowed_contacts);
         assert_eq!(typed.allowed_contacts.len(), 1);
-        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (13, 7));
+        assert_eq!((typed.criteria.len(), arm(typed).objects.len()), (17, 8));
     }
 }

@@ -11,6 +11,7 @@ mod build_learning;
 mod build_planar;
 mod build_scene;
 mod check_coupling;
+mod check_doors;
 mod check_names;
 mod check_planar;
 mod check_taught;

@@ -153,7 +153,11 @@ const OBJECT: Shape = Shape {
     keys: &[
         Key::new("name", Name, "its name in reports, way-points and criteria"),
         Key::new("kind", Tag, "what it is"),
-        Key::new("center_m", Vector(within("m", -3.0, 3.0), Exactly(2)), "centre in the horizontal plane (x forward, y left of the robot)"),
+        Key::new(
+            "center_m",
+            Vector(within("m", -3.0, 3.0), Exactly(2)),
+            "centre in the horizontal plane (x forward, y left of the robot); of a cabinet, its hinge",
+        ),
         Key::new("lateral_offset_m", Quantity(within("m", -1.0, 1.0)), "added to the centre along x").or_number(0.0),
         Key::new("offset_y_m", Quantity(within("m", -1.0, 1.0)), "added to the centre along y").or_number(0.0),
         Key::new("raised_m", Quantity(within("m", -1.0, 1.0)), "added to the height at which it stands").or_number(0.0),
@@ -228,11 +232,47 @@ const OBJECT: Shape = Shape {
                 Key::new("friction", Quantity(within("", 0.0, 5.0)), "coefficient of friction").or_number(0.5),
             ],
         },
+        Variant { kind: "cabinet", keys: CABINET },
     ],
 };
 
+const CABINET: &[Key] = &[
+    Key::new("door_size_m", Vector(within("m", 0.05, 2.0), Exactly(2)), "width (from the hinge, along -y) and height of the door"),
+    Key::new("bottom_height_m", Number(within("m", -2.0, 2.0)), "height of the door's lower edge above what the cabinet stands on"),
+    Key::new("depth_m", Number(within("m", 0.05, 2.0)), "depth behind the door").or_number(0.3),
+    Key::new("mass_kg", Number(within("kg", 0.1, 50.0)), "mass of the door").or_number(3.0),
+    Key::new("friction_nm", Number(within("N m", 0.0, 20.0)), "dry friction of the hinge").or_number(0.3),
+    Key::new("damping_nms_per_rad", Number(within("N m s/rad", 0.0, 50.0)), "damping of the hinge").or_number(0.5),
+    Key::new("seal_nm_per_rad", Number(within("N m/rad", 0.0, 1e4)), "stiffness of the seal that the closing door presses").or_number(20.0),
+    Key::new("seal_travel_rad", Number(within("rad", 0.0, 0.2)), "how far the seal yields before the door stands still").or_number(0.05),
+    Key::new("opening_max_rad", Number(within("rad", 0.1, 3.1)), "how far the door opens").or_number(1.2),
+    Key::new("handles", Count(1, 9), "handles in a row; the first is the nearest to the hinge").or(Preset::Count(5)),
+    Key::new("first_handle_m", Number(within("m", 0.01, 2.0)), "distance of the first handle from the hinge").or_number(0.2),
+    Key::new("handle_spacing_m", Number(within("m", 0.01, 1.0)), "distance between handles").or_number(0.05),
+    Key::new(
+        "handle_lateral_m",
+        Quantity(within("m", -3.0, 3.0)),
+        "place of the handle in use along y, door closed; handles of the row less than a spacing beside it are not mounted",
+    ),
+    Key::new("handle_length_m", Number(within("m", 0.04, 1.0)), "length of a handle's bar").or_number(0.12),
+    Key::new("handle_radius_m", Number(within("m", 0.001, 0.05)), "radius of a handle's bar").or_number(0.006),
+    Key::new("handle_standoff_m", Number(within("m", 0.01, 0.2)), "distance of a bar's axis from the door's face").or_number(0.04),
+    Key::new(
+        "grip",
+        Choice(&["clamp", "contact"]),
+        "how a hook holds the handle: a clamp that closes with the gripper, or nothing but contact",
+    )
+    .or(Preset::Text("clamp")),
+];
+
 const TEACHING: Shape = Shape::plain(&[
-    Key::new("tool_yaw_rad", Number(within("rad", -7.0, 7.0)), "turn of the downward-pointing tool about the vertical").or_number(0.0),
+    Key::new("repetitions", Count(1, 100), "how often each combination of the grid is shown").or(Preset::Count(1)),
+    Key::new("tool_yaw_rad", Number(within("rad", -7.0, 7.0)), "turn of the tool about the vertical").or_number(0.0),
+    Key::new("tool_pitch_rad", Number(within("rad", -7.0, 7.0)), "by how much the tool is lifted from pointing down towards the front")
+        .or_number(0.0),
+    Key::new("tool_roll_rad", Number(within("rad", -7.0, 7.0)), "turn of the tool about its own z axis").or_number(0.0),
+    Key::new("turns_with_door", Number(within("", 0.0, 1.0)), "how far the tool turns with a door: 0 not at all … 1 as the door")
+        .or_number(0.0),
     Key::new(
         "zero_gravity_damping_nms_per_rad",
         Number(within("N m s/rad", 0.0, 100.0)),
@@ -252,6 +292,7 @@ const WAYPOINT: Shape = Shape::plain(&[
     Key::new("at", Reference(Object), "the object whose anchor the offset is relative to; the world's origin without one").optional(),
     Key::new("offset_m", Vector(within("m", -3.0, 3.0), Exactly(3)), "offset from the anchor, world axes")
         .or(Preset::Vector(&[0.0, 0.0, 0.0])),
+    Key::new("opening_rad", Number(within("rad", 0.0, 3.1)), "how far the door is open: the way-point is carried along with it").optional(),
     Key::new("gripper", Number(within("", 0.0, 1.0)), "opening that is commanded from here on (0 closed … 1 open)").optional(),
 ]);
 
@@ -472,6 +513,44 @@ const CRITERION: Shape = Shape {
             ],
         },
         Variant { kind: "no_contact", keys: &[Key::new("objects", References(Object), "what must not be touched")] },
+        Variant {
+            kind: "door_open",
+            keys: &[
+                Key::new("object", Reference(ObjectOfKind("cabinet")), "the cabinet"),
+                Key::new("min_rad", Number(within("rad", 0.0, 3.1)), "smallest opening at the end"),
+            ],
+        },
+        Variant {
+            kind: "arc_followed",
+            keys: &[
+                Key::new("object", Reference(ObjectOfKind("cabinet")), "the cabinet"),
+                Key::new("of", Choice(&["tool", "reference"]), "the tool, or where the controller wants it").or(Preset::Text("tool")),
+                Key::new("max_m", Number(within("m", 0.0, 1.0)), "largest rms distance from the arc of the handle in use"),
+            ],
+        },
+        Variant {
+            kind: "hook_kept",
+            keys: &[
+                Key::new("object", Reference(ObjectOfKind("cabinet")), "the cabinet"),
+                Key::new(
+                    "max_m",
+                    Number(within("m", 0.0, 1.0)),
+                    "largest horizontal distance of the tool from the axis of the handle in use",
+                ),
+            ],
+        },
+        Variant {
+            kind: "tool_force",
+            keys: &[
+                Key::new(
+                    "mean_over_s",
+                    Number(within("s", 0.0, 1.0)),
+                    "over which time the force is averaged, rounded up to whole logged steps; 0: every step of the engine",
+                )
+                .or_number(0.0),
+                Key::new("max_n", Number(within("N", 0.0, 1000.0)), "largest force of the objects on fingers and tool"),
+            ],
+        },
         Variant {
             kind: "clearance",
             keys: &[

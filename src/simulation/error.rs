@@ -17,7 +17,9 @@ pub enum SimulationError {
     #[error(transparent)]
     Arm(#[from] ArmModelError),
     /// A pose of the plan cannot be reached.
-    #[error("{what} cannot be reached: the arm ends {position_mm:.1} mm and {angle_deg:.1} deg away{}; move the object or the way-point", limit.as_ref().map_or_else(String::new, |joint| format!(", with joint `{joint}` at its limit")))]
+    #[error(
+        "{what} cannot be reached: the arm ends {position_mm:.1} mm and {angle_deg:.1} deg away, {joint}; move the object or the way-point"
+    )]
     Unreachable {
         /// Which pose.
         what: String,
@@ -25,8 +27,22 @@ pub enum SimulationError {
         position_mm: f64,
         /// By how much it is turned (deg).
         angle_deg: f64,
-        /// The joint that stops it.
-        limit: Option<String>,
+        /// The joint that stops it, in words.
+        joint: String,
+    },
+    /// On the way from one pose of the plan to the next, the arm would have to swing into another posture.
+    #[error(
+        "{what} cannot be reached without swinging the arm: joint `{joint}` would turn by {turn_deg:.0} deg within {within_s} s; move the object or the way-point, or give another `robot.rest_posture_rad`"
+    )]
+    Swing {
+        /// Which pose.
+        what: String,
+        /// The joint that turns furthest.
+        joint: String,
+        /// How far (deg).
+        turn_deg: f64,
+        /// In which time (s).
+        within_s: f64,
     },
     /// Lists of the scenario have another length than the robot's arms, one sentence each.
     #[error("{}", .0.join("\n"))]
@@ -60,7 +76,7 @@ pub enum SimulationError {
         left: Box<RunOutcome>,
     },
     /// The scene cannot be as described.
-    #[error("{0}: put it on a table, or give the table another size")]
+    #[error("{0}")]
     Scene(String),
     /// The recorded demonstrations do not fit the experiment.
     #[error("the demonstrations do not fit the scenario: {0}")]

@@ -16,6 +16,7 @@ pub(super) struct Executed {
     pub cut_short: Option<SimulationError>,
     pub records: Vec<StepRecord>,
     pub human_peak_force_n: f64,
+    pub tool_peak_force_n: f64,
     pub goal: Vector3<f64>,
     pub collisions: Vec<ContactEpisode>,
     pub clearances: Vec<Clearance>,
@@ -50,7 +51,8 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
     let mut settled = 0;
     let every = setup.steps(1.0 / experiment.log_rate_hz).max(1);
     let mut records = Vec::with_capacity((setup.steps(duration) / every) as usize + 1);
-    let mut human_peak_force_n: f64 = 0.0;
+    let (mut human_peak_force_n, mut tool_peak_force_n): (f64, f64) = (0.0, 0.0);
+    let mut tool_impulse = Vector3::zeros();
     let mut hold = setup.hold();
     let mut run = StepLoop {
         world: &mut world,
@@ -67,8 +69,10 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
         |_, _| {},
         |now| {
             human_peak_force_n = now.hand.force.norm().max(human_peak_force_n);
+            tool_peak_force_n = now.world.tool_force().norm().max(tool_peak_force_n);
+            tool_impulse += now.world.tool_force() * step_s;
             if now.world.step().is_multiple_of(every) {
-                let record = record(now, names.len());
+                let record = record(now, names.len(), tool_impulse);
                 progress.stepped(&record);
                 records.push(record);
             }
@@ -81,6 +85,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
         cut_short: made.err(),
         records,
         human_peak_force_n,
+        tool_peak_force_n,
         goal,
         collisions: world.contacts().to_vec(),
         clearances: world.clearances().to_vec(),
@@ -99,7 +104,7 @@ fn final_objects(world: &World, names: &[String]) -> Vec<FinalObject> {
     names.iter().enumerate().map(object).collect()
 }
 
-fn record(now: &Published<SkillController>, objects: usize) -> StepRecord {
+fn record(now: &Published<SkillController>, objects: usize, tool_impulse: Vector3<f64>) -> StepRecord {
     let telemetry = now.controller.telemetry();
     let mut bodies = Vec::new();
     now.world.robot_poses(&mut bodies);
@@ -123,6 +128,8 @@ fn record(now: &Published<SkillController>, objects: usize) -> StepRecord {
         gripper_command: now.command.gripper,
         gripper_opening: now.observation.gripper_opening,
         human: now.hand,
+        tool_force: now.world.tool_force(),
+        tool_impulse,
         bodies,
         objects: (0..objects).map(|index| now.world.object_pose(index)).collect(),
         kinetic_energy_j: now.world.kinetic_energy_j(),

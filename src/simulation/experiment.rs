@@ -109,8 +109,16 @@ pub struct RobotSettings {
 pub struct TeachingPlan {
     /// Values of task parameters; every combination is one demonstration, the last parameter varying fastest.
     pub grid: Vec<(String, Vec<f64>)>,
-    /// Turn of the downward-pointing tool about the vertical (rad): at pi/2 the fingers open along x.
+    /// How often each combination is shown, at least once.
+    pub repetitions: usize,
+    /// Turn of the tool about the vertical (rad): at pi/2 the fingers of one that points down open along x.
     pub tool_yaw_rad: f64,
+    /// By how much the tool is lifted from pointing down towards the front (rad): at pi/2 it points forward.
+    pub tool_pitch_rad: f64,
+    /// Turn of the tool about its own z axis (rad).
+    pub tool_roll_rad: f64,
+    /// How far the tool turns with the door of way-points that have an opening (0: not at all … 1: as the door).
+    pub turns_with_door: f64,
     /// Damping of the joints while the arm is in zero gravity (N m s/rad).
     pub zero_gravity_damping_nms_per_rad: f64,
     /// How long a demonstration lasts (s).
@@ -125,15 +133,17 @@ pub struct TeachingPlan {
     pub waypoints: Vec<Waypoint>,
 }
 
-/// A place through which the person leads the grasp centre of the gripper, tool pointing down.
+/// A place through which the person leads the grasp centre of the gripper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waypoint {
     /// When it is reached, from the start of the demonstration (s).
     pub time_s: f64,
     /// The object whose anchor the offset is relative to (see [`Object::anchor`]); the world's origin without one.
     pub at: Option<String>,
-    /// Offset from the anchor, world axes (m).
+    /// Offset from the anchor, world axes; of a door, while it is closed (m).
     pub offset_m: [f64; 3],
+    /// How far the door is open (rad); the place is carried along with it. None for way-points that are not at a door.
+    pub opening_rad: Option<f64>,
     /// The opening that is commanded to the gripper from here on (0 closed, 1 open); unchanged without one.
     pub gripper: Option<f64>,
 }

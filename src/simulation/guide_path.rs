@@ -1,37 +1,67 @@
 //! Where a person wants the gripper to be: a smooth way through way-points, a little different each time.
+//!
+//! A way-point may be at an opening of a door. The way is then thought out with the door closed, the opening being one more coordinate of it,
+//! and carried along with the door: between two openings it is an arc about the hinge.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3, Vector4};
 use rand_chacha::ChaCha8Rng;
 
 use super::{TeachingPlan, Waypoint};
 use crate::math;
-use crate::world::{Object, Parameters, support_height_m};
+use crate::world::{Object, ObjectKind, Parameters, door_turn, support_height_m, tool_orientation};
 
 /// A way through knots: quintic Hermite segments with zero acceleration at the knots (minimum jerk between two rests) and velocities that
 /// never overshoot a knot.
 #[derive(Clone, Debug)]
 pub(super) struct GuidePath {
     times_s: Vec<f64>,
-    points: Vec<Vector3<f64>>,
-    velocities: Vec<Vector3<f64>>,
+    /// Place with the door closed (m), and the door's opening (rad).
+    points: Vec<Vector4<f64>>,
+    velocities: Vec<Vector4<f64>>,
     /// Openings commanded from each knot on.
     gripper: Vec<f64>,
+    /// A point on the hinge of the scene's door (m).
+    hinge: Vector3<f64>,
+    /// Orientation with the door closed, and how far it turns with the door (0 … 1).
+    orientation: UnitQuaternion<f64>,
+    turns_with_door: f64,
+}
+
+/// Where the gripper should be at a moment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GuidePoint {
+    /// `world_from_tool`.
+    pub pose: Isometry3<f64>,
+    /// Velocity of the tool (m/s, world).
+    pub linear_velocity: Vector3<f64>,
+    /// Its angular velocity (rad/s, world).
+    pub angular_velocity: Vector3<f64>,
+    /// The opening that is commanded to the gripper.
+    pub gripper: f64,
 }
 
 impl GuidePath {
     /// The way of one demonstration in the setting `parameters`; `variation` draws how this one differs from the others.
     pub(super) fn new(plan: &TeachingPlan, objects: &[Object], parameters: &Parameters, variation: &mut ChaCha8Rng) -> Self {
         let support = support_height_m(objects, parameters);
-        let mut path = Self { times_s: Vec::new(), points: Vec::new(), velocities: Vec::new(), gripper: Vec::new() };
+        let mut path = Self {
+            times_s: Vec::new(),
+            points: Vec::new(),
+            velocities: Vec::new(),
+            gripper: Vec::new(),
+            hinge: hinge(objects, parameters),
+            orientation: tool_orientation(plan.tool_yaw_rad, plan.tool_pitch_rad, plan.tool_roll_rad),
+            turns_with_door: plan.turns_with_door,
+        };
         let mut gripper = 1.0;
-        let mut dwell: Option<(&Waypoint, Vector3<f64>)> = None;
+        let mut dwell: Option<(&Waypoint, Vector4<f64>)> = None;
         for waypoint in &plan.waypoints {
-            let mut point = anchor(waypoint, objects, parameters, support) + Vector3::from(waypoint.offset_m);
+            let place = anchor(waypoint, objects, parameters, support) + Vector3::from(waypoint.offset_m);
             let draw = Vector3::from_fn(|_, _| plan.position_spread_m * bounded_normal(variation));
             // A dwell (the same place twice) keeps its place.
-            point = match dwell {
-                Some((last, at)) if last.at == waypoint.at && last.offset_m == waypoint.offset_m => at,
-                _ => point + draw,
+            let point = match dwell {
+                Some((last, at)) if same_place(last, waypoint) => at,
+                _ => (place + draw).push(waypoint.opening_rad.unwrap_or(0.0)),
             };
             dwell = Some((waypoint, point));
             let shift = plan.timing_spread * plan.duration_s * bounded_normal(variation);
@@ -57,28 +87,49 @@ impl GuidePath {
         }
     }
 
-    /// The places that this way goes through (m), in the order of the plan's way-points.
-    pub(super) fn knots(&self) -> &[Vector3<f64>] {
-        &self.points
+    /// When this way comes to each of the plan's way-points (s).
+    pub(super) fn times_s(&self) -> &[f64] {
+        &self.times_s
     }
 
-    /// Place (m), velocity (m/s) and commanded opening at `time_s`; before the first and after the last knot the ends.
-    pub(super) fn at(&self, time_s: f64) -> (Point3<f64>, Vector3<f64>, f64) {
+    /// Where the gripper should be at `time_s`; before the first and after the last knot at the ends.
+    pub(super) fn at(&self, time_s: f64) -> GuidePoint {
         let after = self.times_s.partition_point(|t| *t <= time_s);
         if after == 0 || after == self.times_s.len() {
             let end = after.saturating_sub(1);
-            return (Point3::from(self.points[end]), Vector3::zeros(), self.gripper[end]);
+            return self.carried(self.points[end], Vector4::zeros(), self.gripper[end]);
         }
         let (a, b) = (after - 1, after);
         let span = self.times_s[b] - self.times_s[a];
         let r = (time_s - self.times_s[a]) / span;
         let (p, v) = quintic(r, span, (self.points[a], self.velocities[a]), (self.points[b], self.velocities[b]));
-        (Point3::from(p), v, self.gripper[a])
+        self.carried(p, v, self.gripper[a])
+    }
+
+    /// A place of the closed door (m, and the opening in rad) with its velocity, carried along with the door.
+    fn carried(&self, point: Vector4<f64>, velocity: Vector4<f64>, gripper: f64) -> GuidePoint {
+        let turn = door_turn(point.w);
+        let angular_velocity = -Vector3::z() * velocity.w;
+        let arm = turn * (point.xyz() - self.hinge);
+        let pose =
+            Isometry3::from_parts(Translation3::from(self.hinge + arm), door_turn(self.turns_with_door * point.w) * self.orientation);
+        let linear_velocity = turn * velocity.xyz() + angular_velocity.cross(&arm);
+        GuidePoint { pose, linear_velocity, angular_velocity: self.turns_with_door * angular_velocity, gripper }
     }
 }
 
+fn same_place(a: &Waypoint, b: &Waypoint) -> bool {
+    a.at == b.at && a.offset_m == b.offset_m && a.opening_rad == b.opening_rad
+}
+
+/// A point on the hinge of the scene's door (m); the origin without one.
+fn hinge(objects: &[Object], parameters: &Parameters) -> Vector3<f64> {
+    let door = objects.iter().find(|object| matches!(object.kind, ObjectKind::Cabinet(_)));
+    door.map_or_else(Vector3::zeros, |object| object.center(parameters).push(0.0))
+}
+
 /// The quintic from `a` to `b` (place, velocity; zero acceleration at both) at fraction `r` of `span` seconds.
-fn quintic(r: f64, span: f64, a: (Vector3<f64>, Vector3<f64>), b: (Vector3<f64>, Vector3<f64>)) -> (Vector3<f64>, Vector3<f64>) {
+fn quintic(r: f64, span: f64, a: (Vector4<f64>, Vector4<f64>), b: (Vector4<f64>, Vector4<f64>)) -> (Vector4<f64>, Vector4<f64>) {
     let (d, va, vb) = (b.0 - a.0, a.1 * span, b.1 * span);
     let (c3, c4, c5) = (10.0 * d - 6.0 * va - 4.0 * vb, -15.0 * d + 8.0 * va + 7.0 * vb, 6.0 * d - 3.0 * va - 3.0 * vb);
     let place = a.0 + r * (va + r * r * (c3 + r * (c4 + r * c5)));
@@ -87,11 +138,11 @@ fn quintic(r: f64, span: f64, a: (Vector3<f64>, Vector3<f64>), b: (Vector3<f64>,
 }
 
 /// Knot velocities: the harmonic mean of the neighbouring slopes, zero where they differ in sign and at the ends (Fritsch and Butland).
-fn knot_velocities(times: &[f64], points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+fn knot_velocities(times: &[f64], points: &[Vector4<f64>]) -> Vec<Vector4<f64>> {
     let slope = |i: usize| (points[i + 1] - points[i]) / (times[i + 1] - times[i]);
     let harmonic = |a: f64, b: f64| if a * b > 0.0 { 2.0 * a * b / (a + b) } else { 0.0 };
     (0..points.len())
-        .map(|i| if i == 0 || i + 1 == points.len() { Vector3::zeros() } else { slope(i - 1).zip_map(&slope(i), harmonic) })
+        .map(|i| if i == 0 || i + 1 == points.len() { Vector4::zeros() } else { slope(i - 1).zip_map(&slope(i), harmonic) })
         .collect()
 }
 

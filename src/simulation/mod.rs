@@ -13,6 +13,7 @@ mod outcome;
 mod person;
 mod preflight;
 mod progress;
+mod reachable;
 mod replay;
 mod run;
 mod setup;

@@ -29,6 +29,8 @@ pub struct RunOutcome {
     pub steps: Vec<StepRecord>,
     /// The largest force of the person in the execution, every engine step considered (N).
     pub human_peak_force_n: f64,
+    /// The largest force of the objects on fingers and tool in the execution, every engine step considered (N).
+    pub tool_peak_force_n: f64,
     /// Where the skill says that the tool ends in this setting (m, world).
     pub goal: Vector3<f64>,
     /// Contacts of the execution, every engine step considered.

@@ -1,6 +1,6 @@
 //! What the person does in each kind of run. They see the scene as people do, and act through a hand on the wrist.
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Vector3};
 use rand_chacha::ChaCha8Rng;
 
 use super::guide_path::GuidePath;
@@ -34,24 +34,25 @@ impl Person for Nobody {
 pub(super) struct Teacher {
     hand: Hand,
     path: GuidePath,
-    orientation: UnitQuaternion<f64>,
     force_max_n: f64,
     tool_from_grasp: Isometry3<f64>,
 }
 
 impl Teacher {
-    pub(super) fn new(settings: &HumanSettings, path: GuidePath, orientation: UnitQuaternion<f64>, world: &World) -> Self {
+    pub(super) fn new(settings: &HumanSettings, path: GuidePath, world: &World) -> Self {
         let force_max_n = settings.teaching_force_max_n;
-        Self { hand: Hand::new(settings.clone()), path, orientation, force_max_n, tool_from_grasp: world.tool_from_grasp() }
+        Self { hand: Hand::new(settings.clone()), path, force_max_n, tool_from_grasp: world.tool_from_grasp() }
     }
 }
 
 impl Person for Teacher {
     fn act(&mut self, world: &World, step_s: f64) -> HandWrench {
-        let (place, velocity, _) = self.path.at(world.time_s());
-        let wanted_tool = Isometry3::from_parts(Translation3::from(place.coords), self.orientation);
-        let wanted = GraspState { pose: wanted_tool * self.tool_from_grasp, linear_velocity: velocity, angular_velocity: Vector3::zeros() };
-        let gaze_error = place.coords - world.tool_pose().translation.vector;
+        let point = self.path.at(world.time_s());
+        let pose = point.pose * self.tool_from_grasp;
+        let (place, omega) = (point.pose.translation.vector, point.angular_velocity);
+        let linear_velocity = point.linear_velocity + omega.cross(&(pose.translation.vector - place));
+        let wanted = GraspState { pose, linear_velocity, angular_velocity: omega };
+        let gaze_error = place - world.tool_pose().translation.vector;
         self.hand.lead(step_s, &world.grasp_state(), &wanted, gaze_error, self.force_max_n)
     }
 }

@@ -1,7 +1,5 @@
 //! What can be known before the first step: can the way be reached, does everything stand apart, do the demonstrations fit.
 
-use nalgebra::{Isometry3, Translation3, Vector3};
-
 use super::guide_path::GuidePath;
 use super::setup::Setup;
 use super::space::{PLACE_COLUMNS, first_pose};
@@ -12,25 +10,23 @@ use crate::demonstration::Dataset;
 use crate::learning::cpdmp::ForceCoupling;
 use crate::learning::{ShapingKind, wrench_columns};
 use crate::math;
-use crate::world::{Object, ObjectKind, Parameters, pointing_down};
+use crate::world::{Object, ObjectKind, Parameters};
 
 impl Setup {
-    /// Checks everything that needs no simulation: every way-point of every lesson can be reached, nothing starts inside something else or
-    /// hangs in the air, a recorded dataset fits the experiment.
+    /// Checks everything that needs no simulation: the way of every lesson and of the execution can be gone, nothing starts inside something
+    /// else or hangs in the air, handles are on their doors, a recorded dataset fits the experiment.
     ///
     /// # Errors
     /// The first thing that is wrong.
     pub fn preflight(&self) -> Result<(), SimulationError> {
-        let start = match &self.experiment.demonstrations {
-            DemonstrationSource::Teach(plan) => self.lessons_can_be_led(plan)?,
-            DemonstrationSource::Dataset(folder) => {
-                let dataset = self.in_space(Dataset::read(folder)?)?;
-                self.fits(&dataset)?;
-                dataset.demonstrations.first().and_then(|lesson| first_pose(&lesson.trajectory))
-            }
+        let folder = match &self.experiment.demonstrations {
+            DemonstrationSource::Teach(plan) => return self.lessons_can_be_led(plan),
+            DemonstrationSource::Dataset(folder) => folder,
         };
+        let dataset = self.in_space(Dataset::read(folder)?)?;
+        self.fits(&dataset)?;
         self.stands(&self.experiment.parameters)?;
-        if let Some(start) = start {
+        if let Some(start) = dataset.demonstrations.first().and_then(|lesson| first_pose(&lesson.trajectory)) {
             let posture = self.posture(&start, "the start of the demonstrations")?;
             self.world(&self.experiment.parameters, &posture, false)?;
         }
@@ -78,38 +74,47 @@ impl Setup {
         Ok(())
     }
 
-    /// Solves every lesson's way-points and builds its world; the pose at which the first lesson starts.
-    fn lessons_can_be_led(&self, plan: &TeachingPlan) -> Result<Option<Isometry3<f64>>, SimulationError> {
-        let mut first = None;
-        for (number, parameters) in settings_of(plan, &self.experiment.parameters).iter().enumerate() {
-            let mut variation = math::stream(self.experiment.seed, "human", number as u64);
-            let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
-            let pose = |knot: &Vector3<f64>| Isometry3::from_parts(Translation3::from(*knot), pointing_down(plan.tool_yaw_rad));
-            let mut start = None;
-            for (k, (waypoint, knot)) in plan.waypoints.iter().zip(path.knots()).enumerate() {
-                let place = waypoint.at.as_deref().unwrap_or("the world");
-                let posture = self.posture(&pose(knot), &format!("way-point {} (at {place}) of lesson {}", k + 1, number + 1))?;
-                start = start.or(Some((pose(knot), posture)));
-            }
-            self.stands(parameters)?;
-            if let Some((pose, posture)) = start {
-                self.world(parameters, &posture, false)?;
-                first = first.or(Some(pose));
-            }
+    /// Goes every lesson's way in thought, and the one that a lesson would take in the setting of the execution, and builds their worlds.
+    fn lessons_can_be_led(&self, plan: &TeachingPlan) -> Result<(), SimulationError> {
+        let lessons = settings_of(plan, &self.experiment.parameters);
+        for (number, parameters) in lessons.iter().enumerate() {
+            self.can_be_led(plan, parameters, number as u64, &format!("lesson {}", number + 1))?;
         }
-        Ok(first)
+        let exact = TeachingPlan { position_spread_m: 0.0, timing_spread: 0.0, ..plan.clone() };
+        self.can_be_led(&exact, &self.experiment.parameters, 0, "a lesson in the setting of the execution")
     }
 
-    /// Everything that can fall lies on a table: there is no floor.
+    fn can_be_led(&self, plan: &TeachingPlan, parameters: &Parameters, number: u64, whose: &str) -> Result<(), SimulationError> {
+        self.stands(parameters)?;
+        let mut variation = math::stream(self.experiment.seed, "human", number);
+        let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
+        let start = self.can_go(plan, &path, whose)?;
+        self.world(parameters, &start, false)?;
+        Ok(())
+    }
+
+    /// Everything that can fall lies on a table: there is no floor. Handles are on their doors.
     fn stands(&self, parameters: &Parameters) -> Result<(), SimulationError> {
         let objects = &self.experiment.objects;
+        for object in objects {
+            let ObjectKind::Cabinet(cabinet) = &object.kind else { continue };
+            let hinge_y = object.center(parameters).y;
+            if !cabinet.has_handle_on_door(hinge_y, parameters) {
+                let (distance, width) = (cabinet.handle_distance_m(hinge_y, parameters), cabinet.door_size_m.x);
+                let what = format!("the handle of `{}` is {distance:.3} m from the hinge, but its door is {width} m wide", object.name);
+                return Err(SimulationError::Scene(format!("{what}: change `handle_lateral_m` or `door_size_m`")));
+            }
+        }
         let hanging = objects.iter().filter(|o| o.is_free()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
         match hanging {
             None => Ok(()),
             Some(object) => {
                 let center = object.center(parameters);
                 let place = format!("[{:.3}, {:.3}] m", center.x, center.y);
-                Err(SimulationError::Scene(format!("object `{}` at {place} lies on no table and would fall for ever", object.name)))
+                Err(SimulationError::Scene(format!(
+                    "object `{}` at {place} lies on no table and would fall for ever: put it on a table, or give the table another size",
+                    object.name
+                )))
             }
         }
     }

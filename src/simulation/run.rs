@@ -70,6 +70,7 @@ pub fn perform(
     outcome.state_hash = history.hash();
     outcome.steps = executed.records;
     outcome.human_peak_force_n = executed.human_peak_force_n;
+    outcome.tool_peak_force_n = executed.tool_peak_force_n;
     outcome.goal = executed.goal;
     outcome.collisions = executed.collisions;
     outcome.clearances = executed.clearances;
@@ -98,6 +99,7 @@ fn planned(setup: &Setup, dataset: &Dataset, learned: &Learned, lessons: Vec<Les
         plan: setup.with_place(learning::generate(&learned.skill, &question, 1.0 / setup.experiment.log_rate_hz, 1.0)?)?,
         steps: Vec::new(),
         human_peak_force_n: 0.0,
+        tool_peak_force_n: 0.0,
         goal: Vector3::zeros(),
         collisions: Vec::new(),
         clearances: Vec::new(),

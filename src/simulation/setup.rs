@@ -6,8 +6,8 @@ use nalgebra::Isometry3;
 
 use super::{Experiment, RobotSettings, SimulationError};
 use crate::control::{ArmModel, HoldPosture, PoseTracker, WrenchObserver};
-use crate::robot::baxter::{LEFT_HAND, LEFT_TOOL};
-use crate::robot::{self, Finding, Joint, LoadOptions, Loaded, RobotModel};
+use crate::robot::baxter::{LEFT_HAND, LEFT_HOOK, LEFT_TOOL};
+use crate::robot::{self, Finding, IkOutcome, Joint, LoadOptions, Loaded, RobotModel};
 use crate::world::{EffortSensors, Parameters, World, WorldSettings};
 
 /// An experiment with its robot loaded.
@@ -43,15 +43,39 @@ fn check_lengths(settings: &RobotSettings, joints: usize, idle_joints: Option<us
     if wrong.is_empty() { Ok(()) } else { Err(SimulationError::JointCounts(wrong)) }
 }
 
-/// The robot of a file. When it lacks the tool and has Baxter's left hand, the electric gripper is mounted there.
+/// The built-in robot with the tool that the experiment names.
+fn built_in(settings: &RobotSettings) -> Loaded {
+    if settings.tool_link == LEFT_HOOK { robot::baxter_with_hook() } else { robot::baxter() }
+}
+
+/// The robot of a file. When it lacks the tool and has Baxter's left hand, the electric gripper or the hook is mounted there.
 fn load(path: &Path, settings: &RobotSettings) -> Result<Loaded, SimulationError> {
     let options = LoadOptions { package_directories: settings.package_directories.clone(), ..LoadOptions::default() };
     let bare = robot::load(path, &options)?;
     let has = |link: &str| bare.model.frame(link).is_some();
-    if has(&settings.tool_link) || settings.tool_link != LEFT_TOOL || !has(LEFT_HAND) {
+    let tool = match settings.tool_link.as_str() {
+        LEFT_TOOL => robot::electric_gripper(),
+        LEFT_HOOK => robot::hook(),
+        _ => return Ok(bare),
+    };
+    if has(&settings.tool_link) || !has(LEFT_HAND) {
         return Ok(bare);
     }
-    Ok(robot::load(path, &LoadOptions { attachments: vec![robot::electric_gripper()], ..options })?)
+    Ok(robot::load(path, &LoadOptions { attachments: vec![tool], ..options })?)
+}
+
+/// The error of a pose that `arm` does not reach: `q` is as near as it comes.
+pub(super) fn unreachable(arm: &ArmModel, outcome: &IkOutcome, q: &[f64], what: &str) -> SimulationError {
+    let joint = match outcome.limiting_joint {
+        Some(index) => format!("with joint `{}` at its limit", arm.joint_name(index)),
+        None => format!("with joint `{}` the nearest to its limit", arm.nearest_to_limit(q)),
+    };
+    SimulationError::Unreachable {
+        what: what.into(),
+        position_mm: outcome.position_error_m * 1e3,
+        angle_deg: outcome.orientation_error_rad.to_degrees(),
+        joint,
+    }
 }
 
 impl Setup {
@@ -62,7 +86,7 @@ impl Setup {
     pub fn new(experiment: &Experiment) -> Result<Self, SimulationError> {
         let settings = &experiment.robot;
         let loaded = match &settings.urdf {
-            None => robot::baxter(),
+            None => built_in(settings),
             Some(path) => load(path, settings)?,
         };
         let arm = ArmModel::new(&loaded.model, &settings.tool_link, &settings.rest_posture_rad, experiment.physics.gravity_m_per_s2)?;
@@ -116,15 +140,7 @@ impl Setup {
         let mut arm = self.arm();
         let mut q = vec![0.0; arm.joints()];
         let outcome = arm.reach(base_from_tool, &mut q);
-        if outcome.converged {
-            return Ok(q);
-        }
-        Err(SimulationError::Unreachable {
-            what: what.into(),
-            position_mm: outcome.position_error_m * 1e3,
-            angle_deg: outcome.orientation_error_rad.to_degrees(),
-            limit: outcome.limiting_joint.map(|index| arm.joint_name(index).to_owned()),
-        })
+        if outcome.converged { Ok(q) } else { Err(unreachable(&arm, &outcome, &q, what)) }
     }
 
     /// The joints of the working arm, from the shoulder.

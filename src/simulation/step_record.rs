@@ -45,9 +45,13 @@ pub struct StepRecord {
     pub gripper_opening: f64,
     /// What the person does.
     pub human: AppliedForce,
+    /// Force of the objects on fingers and tool, as the engine solved it: through a clamp, and normal to the surfaces that touch (N).
+    pub tool_force: Vector3<f64>,
+    /// Integral of that force over every engine step since the start (N s).
+    pub tool_impulse: Vector3<f64>,
     /// Poses of the robot's bodies in the order of [`crate::robot::RobotModel::bodies`].
     pub bodies: Vec<Isometry3<f64>>,
-    /// Poses of the scene's objects in the order of the experiment.
+    /// Poses of the scene's objects in the order of the experiment; of a cabinet, that of its door.
     pub objects: Vec<Isometry3<f64>>,
     /// Kinetic energy of the robot and the objects (J).
     pub kinetic_energy_j: f64,

@@ -1,6 +1,6 @@
 //! Teaching: a person leads the weightless arm; what its encoders saw is the demonstration.
 
-use nalgebra::{DMatrix, Isometry3};
+use nalgebra::DMatrix;
 
 use super::guide_path::GuidePath;
 use super::person::Teacher;
@@ -11,7 +11,7 @@ use super::{LOOKS_HZ, LessonLook, Progress, SimulationError, TeachingPlan};
 use crate::control::{ArmModel, ToolPath, ZeroGravity};
 use crate::demonstration::{Demonstration, Trajectory};
 use crate::math;
-use crate::world::{Parameters, StateTrace, pointing_down};
+use crate::world::{Parameters, StateTrace};
 
 /// One demonstration as it was led, before its wrench is known.
 #[derive(Clone, Debug)]
@@ -38,11 +38,12 @@ pub(super) struct Lesson {
     pub steps: u64,
 }
 
-/// Every combination of the grid's values, the last parameter varying fastest.
+/// Every combination of the grid's values, the last parameter varying fastest, each as often as it is repeated.
 pub(super) fn settings_of(plan: &TeachingPlan, base: &Parameters) -> Vec<Parameters> {
-    plan.grid.iter().fold(vec![base.clone()], |settings, (name, values)| {
+    let settings = plan.grid.iter().fold(vec![base.clone()], |settings, (name, values)| {
         settings.iter().flat_map(|s| values.iter().map(|v| s.with(&[(name.clone(), *v)]))).collect()
-    })
+    });
+    settings.into_iter().flat_map(|setting| std::iter::repeat_n(setting, plan.repetitions)).collect()
 }
 
 /// Teaches demonstration `number` in the setting `parameters`.
@@ -56,11 +57,9 @@ pub(super) fn teach(
     let experiment = &setup.experiment;
     let mut variation = math::stream(experiment.seed, "human", number);
     let path = GuidePath::new(plan, &experiment.objects, parameters, &mut variation);
-    let orientation = pointing_down(plan.tool_yaw_rad);
-    let start = Isometry3::from_parts(path.at(0.0).0.into(), orientation);
-    let start_posture = setup.posture(&start, "the first way-point")?;
+    let start_posture = setup.posture(&path.at(0.0).pose, "the first way-point")?;
     let mut world = setup.world(parameters, &start_posture, false)?;
-    let mut teacher = Teacher::new(&experiment.human, path.clone(), orientation, &world);
+    let mut teacher = Teacher::new(&experiment.human, path.clone(), &world);
     let mut controller = ZeroGravity::new(setup.arm(), plan.zero_gravity_damping_nms_per_rad);
     let steps = setup.steps(plan.duration_s);
     let every = setup.steps(1.0 / plan.record_rate_hz).max(1);
@@ -80,7 +79,7 @@ pub(super) fn teach(
     run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("teach", number), steps + 1);
     run.run(
         steps + 1,
-        |controller, world| controller.gripper = path.at(world.time_s()).2,
+        |controller, world| controller.gripper = path.at(world.time_s()).gripper,
         |now| {
             if now.world.step().is_multiple_of(every) {
                 recorder.record(now.observation.time_s, &now.observation.position, now.command.gripper);
@@ -90,7 +89,7 @@ pub(super) fn teach(
             }
         },
     )?;
-    let name = demonstration_name(plan, parameters);
+    let name = demonstration_name(plan, parameters, number);
     Ok(Lesson {
         number,
         name,
@@ -142,10 +141,14 @@ pub(super) fn demonstration(setup: &Setup, lesson: &Lesson, wrench: &[[f64; 6]])
 /// Columns of a taught demonstration besides time; the joints follow.
 const COLUMNS: [&str; 14] = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw", "fx_n", "fy_n", "fz_n", "tx_nm", "ty_nm", "tz_nm", "gripper"];
 
-/// `block_height_0.17_toy_lateral_-0.06`.
-fn demonstration_name(plan: &TeachingPlan, parameters: &Parameters) -> String {
+/// `block_height_0.17_toy_lateral_-0.06`, with the number of the repetition if there are several.
+fn demonstration_name(plan: &TeachingPlan, parameters: &Parameters, number: u64) -> String {
     let part = |name: &String| format!("{}_{}", name.trim_end_matches("_m"), parameters.get(name).unwrap_or(f64::NAN));
-    plan.grid.iter().map(|(name, _)| part(name)).collect::<Vec<_>>().join("_")
+    let mut parts: Vec<String> = plan.grid.iter().map(|(name, _)| part(name)).collect();
+    if plan.repetitions > 1 {
+        parts.push((number % plan.repetitions as u64 + 1).to_string());
+    }
+    parts.join("_")
 }
 
 struct PathRecorder {

@@ -1,6 +1,6 @@
 //! Keeps book of everything that touches, at every step.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
 
 use super::convert;
@@ -39,7 +39,7 @@ pub struct ContactEpisode {
 /// Why a pair may touch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Permission {
-    /// Fingers are there to grasp this movable object.
+    /// Fingers are there to grasp this movable object or handle.
     Grasp(String),
     /// Objects lie on, in and against each other.
     Objects,
@@ -54,12 +54,15 @@ pub(super) struct ContactBook {
     pub episodes: Vec<ContactEpisode>,
     /// Bodies of the fingers that touch a movable object in this step, with the object.
     pub grips: Vec<(usize, usize)>,
+    /// Force by the objects on fingers and tool in this step, normal to the surfaces that touch (N, world).
+    pub tool_force: Vector3<f64>,
 }
 
 impl ContactBook {
     /// Reads the contacts of the step that ended at `time_s`. `movable` tells which objects move.
     pub(super) fn record(&mut self, engine: &PhysicsWorld, parts: &Parts, movable: &[bool], time_s: f64) {
         self.grips.clear();
+        self.tool_force = Vector3::zeros();
         let step = engine.integration_parameters.dt;
         for pair in engine.narrow_phase.contact_pairs() {
             let force = pair.total_impulse_magnitude() / step;
@@ -78,9 +81,14 @@ impl ContactBook {
             {
                 self.grips.push((body, object));
             }
+            if let (Owner::Robot { finger: true, .. }, Owner::Object(_)) = (a.1.owner, b.1.owner) {
+                // The engine's impulses are those on the second collider.
+                let on_second = convert::vector_back(pair.total_impulse()) / step;
+                self.tool_force += if ordered { -on_second } else { on_second };
+            }
             // The engine's contacts are those of the step's start: where the parts are now is asked of their shapes.
             let gap = colliders_gap(engine, first, second);
-            let episode = self.episode((a.0, b.0), parts, movable, time_s);
+            let episode = self.episode((a.0, b.0), parts, time_s);
             episode.last_time_s = time_s;
             episode.max_force_n = episode.max_force_n.max(force);
             if let Some(gap) = gap {
@@ -90,18 +98,18 @@ impl ContactBook {
     }
 
     /// Notes a touch that the shapes tell.
-    pub(super) fn note(&mut self, touch: &Touch, parts: &Parts, movable: &[bool]) {
-        let episode = self.episode(touch.parts, parts, movable, touch.time_s);
+    pub(super) fn note(&mut self, touch: &Touch, parts: &Parts) {
+        let episode = self.episode(touch.parts, parts, touch.time_s);
         episode.first_time_s = episode.first_time_s.min(touch.time_s);
         episode.last_time_s = episode.last_time_s.max(touch.time_s);
         episode.deepen(touch.time_s, &touch.gap);
     }
 
     /// The episode of a pair, the robot's part first, then what moves.
-    fn episode(&mut self, pair: (usize, usize), parts: &Parts, movable: &[bool], time_s: f64) -> &mut ContactEpisode {
+    fn episode(&mut self, pair: (usize, usize), parts: &Parts, time_s: f64) -> &mut ContactEpisode {
         let index = self.episodes.iter().position(|episode| episode.pair == pair).unwrap_or_else(|| {
             let (a, b) = (parts.get(pair.0), parts.get(pair.1));
-            let permission = permission(a, b, movable);
+            let permission = permission(a, b);
             self.episodes.push(ContactEpisode {
                 a: a.name.clone(),
                 b: b.name.clone(),
@@ -147,10 +155,10 @@ fn rank(owner: Owner, movable: &[bool]) -> usize {
     }
 }
 
-/// Movable objects may touch the gripper's fingers and lie on things; whether they may touch a particular object is a scenario's criterion.
-fn permission(a: &Part, b: &Part, movable: &[bool]) -> Option<Permission> {
+/// Fingers may touch what is there to be held, and objects lie on things; whether they may touch a particular object is a scenario's criterion.
+fn permission(a: &Part, b: &Part) -> Option<Permission> {
     match (a.owner, b.owner) {
-        (Owner::Robot { finger: true, .. }, Owner::Object(object)) if movable[object] => Some(Permission::Grasp(b.name.clone())),
+        (Owner::Robot { finger: true, .. }, Owner::Object(_)) if b.handle => Some(Permission::Grasp(b.name.clone())),
         (Owner::Object(_), Owner::Object(_)) => Some(Permission::Objects),
         _ => None,
     }

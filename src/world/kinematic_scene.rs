@@ -113,7 +113,7 @@ impl KinematicScene {
         book.follow(&motion, &self.held);
         self.held = held(book, &pose_at, &self.movable);
         for touch in &self.book.touches {
-            self.contacts.note(touch, &self.parts, &self.movable);
+            self.contacts.note(touch, &self.parts);
         }
     }
 

@@ -3,12 +3,15 @@
 //! Frame: the robot's base frame (x forward, y left, z up); SI units. This is the only room that knows the physics engine.
 
 mod articulation;
+mod cabinet;
 mod contacts;
 mod convert;
+mod door;
 mod drive;
 mod error;
 mod even_motion;
 mod gap;
+mod hook;
 mod kinematic_scene;
 mod mechanism;
 mod object;
@@ -27,6 +30,7 @@ mod state_trace;
 mod virtual_human;
 mod watch;
 
+pub use cabinet::{Cabinet, Grip, door_turn, opening_rad};
 pub use contacts::{ContactEpisode, Permission};
 pub use error::WorldError;
 pub use kinematic_scene::{KinematicScene, Placement};
@@ -35,8 +39,8 @@ pub use parameters::{Parameters, Quantity};
 pub use passage::{NEAR_M, RESOLUTION_M};
 pub use physics::PhysicsSettings;
 pub use proximity::{Clearance, nearest_of_each};
-pub use scene::{ObjectPart, PartShape, object_parts};
+pub use scene::{ObjectPart, PartShape, fixed_parts, object_parts};
 pub use sensors::{EffortSensors, SensorSettings};
 pub use simulated_world::{World, WorldSettings};
 pub use state_trace::{BodyState, QUANTITIES, Quantum, StateTrace};
-pub use virtual_human::{GraspState, Hand, HandWrench, HumanSettings, pointing_down};
+pub use virtual_human::{GraspState, Hand, HandWrench, HumanSettings, pointing_down, tool_orientation};

@@ -5,14 +5,14 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 
-use super::{Parameters, Quantity};
+use super::{Cabinet, Parameters, Quantity};
 
 /// One object of the scene. Lengths in metres, in the world frame (the robot's base frame: x forward, y left, z up).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
     /// Its name: unique in the scene, used in reports and by way-points.
     pub name: String,
-    /// Centre in the horizontal plane (m).
+    /// Centre in the horizontal plane; of a cabinet, its hinge (m).
     pub center_m: Vector2<f64>,
     /// Added to the centre along x (m): the lateral place that may vary from setting to setting.
     pub lateral_offset_m: Quantity,
@@ -106,6 +106,8 @@ pub enum ObjectKind {
         /// Coefficient of friction.
         friction: Quantity,
     },
+    /// A fixed cabinet with a door on a vertical hinge and a row of handles. It stands square: its door looks at the robot.
+    Cabinet(Cabinet),
 }
 
 /// What a solid thing weighs and how it slides.
@@ -146,7 +148,7 @@ impl Object {
     }
 
     /// Where the object's frame starts (`world_from_object`), its underside on a surface at `support_height_m`: the frame's origin is on that
-    /// surface, or in the middle of a ball, box, cylinder or plate, or of a table's top.
+    /// surface, or in the middle of a ball, box, cylinder or plate, of a table's top, or of a cabinet's hinge.
     pub fn pose(&self, parameters: &Parameters, support_height_m: f64) -> Isometry3<f64> {
         let middle = match &self.kind {
             // A table stands on nothing but its own height.
@@ -156,6 +158,7 @@ impl Object {
             ObjectKind::Cylinder { height_m, .. } => height_m / 2.0,
             ObjectKind::SpringPlate { size_m, travel_m, .. } => travel_m + size_m.z / 2.0,
             ObjectKind::UBlock { .. } | ObjectKind::Basket { .. } => 0.0,
+            ObjectKind::Cabinet(cabinet) => cabinet.bottom_height_m + cabinet.door_size_m.y / 2.0,
         };
         let center = self.center(parameters);
         let place = Translation3::new(center.x, center.y, support_height_m + self.raised_m.resolve(parameters) + middle);
@@ -163,15 +166,20 @@ impl Object {
     }
 
     /// The point that way-points refer to (m, world): the middle of a table's top, of a block's base top, of a basket's floor top, of a
-    /// plate's top; the centre of a ball, box or cylinder that stands on the surface at `support_height_m`.
+    /// plate's top; the centre of a ball, box or cylinder that stands on the surface at `support_height_m`; the middle of a cabinet's handle in
+    /// use while the door is closed.
     pub fn anchor(&self, parameters: &Parameters, support_height_m: f64) -> Point3<f64> {
+        let pose = self.pose(parameters, support_height_m);
+        if let ObjectKind::Cabinet(cabinet) = &self.kind {
+            return pose * cabinet.handle(pose.translation.y, parameters);
+        }
         let above = match &self.kind {
             ObjectKind::UBlock { base_height_m, .. } => base_height_m.resolve(parameters),
             ObjectKind::Basket { wall_thickness_m, .. } => *wall_thickness_m,
             ObjectKind::SpringPlate { size_m, .. } => size_m.z / 2.0,
             _ => 0.0,
         };
-        Point3::from(self.pose(parameters, support_height_m).translation.vector + Vector3::new(0.0, 0.0, above))
+        Point3::from(pose.translation.vector + Vector3::new(0.0, 0.0, above))
     }
 }
 

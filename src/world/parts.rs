@@ -3,11 +3,11 @@
 /// Whose part it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Owner {
-    /// A body of the robot model; `finger` when it may touch what is grasped.
+    /// A body of the robot model; `finger` when it may touch what is there to be held.
     Robot {
         /// Index in [`crate::robot::RobotModel::bodies`].
         body: usize,
-        /// A finger of the gripper.
+        /// A finger of the gripper, or the tool itself.
         finger: bool,
         /// Which part of the robot it belongs to.
         limb: Limb,
@@ -34,6 +34,8 @@ pub(crate) struct Part {
     pub name: String,
     /// Whose part it is.
     pub owner: Owner,
+    /// Whether it is there to be held: what can be moved, or a handle.
+    pub handle: bool,
 }
 
 /// All parts; a collider's user data is the index of its part.

@@ -28,6 +28,8 @@ pub(super) struct Limbs {
     /// Joints of the other arm's tree, and the places in it of the joints between base and its tool.
     pub idle: Vec<usize>,
     pub idle_arm: Vec<usize>,
+    /// Link that is the tool; its shapes, if it has any, hold things as fingers do.
+    pub tool_link: String,
     /// Index of the body that carries the tool, and the tool in it.
     pub tool_body: usize,
     pub body_from_tool: Isometry3<f64>,
@@ -70,6 +72,7 @@ impl Limbs {
             fingers,
             idle,
             idle_arm,
+            tool_link: tool.name.clone(),
             tool_body: tool.body,
             body_from_tool: tool.body_from_frame,
             grasp_body: grasp.body,
@@ -157,8 +160,8 @@ impl RobotBody {
                 (None, None) => Limb::Fixed,
             };
             for geometry in &body.collisions {
-                let owner = Owner::Robot { body: index, finger, limb };
-                let id = parts.add(Part { name: geometry.link.clone(), owner });
+                let owner = Owner::Robot { body: index, finger: finger || geometry.link == limbs.tool_link, limb };
+                let id = parts.add(Part { name: geometry.link.clone(), owner, handle: false });
                 let (shape, turn) = engine_shape(&geometry.shape, &geometry.link, limb)?;
                 let collider = ColliderBuilder::new(shape)
                     .position(convert::pose(&(geometry.body_from_geometry * turn)))

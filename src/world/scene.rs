@@ -7,9 +7,10 @@ use rapier3d_f64::prelude::{
     ColliderBuilder, MotorModel, PhysicsWorld, PrismaticJointBuilder, RigidBodyBuilder, RigidBodyHandle, SharedShape, Vector,
 };
 
+use super::door::Door;
 use super::parts::{Owner, Part, Parts};
 use super::physics::Layer;
-use super::{Object, ObjectKind, Parameters, Quantity, convert, support_height_m};
+use super::{Object, ObjectKind, Parameters, Quantity, convert, door, support_height_m};
 
 /// A part of an object that is drawn and touched: a shape in the object's frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,9 +32,19 @@ pub enum PartShape {
     Ball(f64),
     /// A cylinder around z of this radius and height (m).
     Cylinder(f64, f64),
+    /// A bar around z with round ends: a cylinder of this radius and height, and two half balls (m).
+    Capsule(f64, f64),
 }
 
-/// The parts of `object` in its own frame, see [`Object::pose`].
+/// The parts of `object` that stand still although the object moves, in the frame in which [`Object::pose`] puts it: a cabinet's walls.
+pub fn fixed_parts(object: &Object) -> Vec<ObjectPart> {
+    match &object.kind {
+        ObjectKind::Cabinet(cabinet) => cabinet.walls(),
+        _ => Vec::new(),
+    }
+}
+
+/// The parts of `object` in its own frame, see [`Object::pose`]; of a cabinet, its door with the handles.
 pub fn object_parts(object: &Object, parameters: &Parameters) -> Vec<ObjectPart> {
     match &object.kind {
         ObjectKind::Table { size_m, .. } => vec![slab("", [0.0, 0.0, -TABLE_THICKNESS_M / 2.0], [size_m.x, size_m.y, TABLE_THICKNESS_M])],
@@ -66,6 +77,10 @@ pub fn object_parts(object: &Object, parameters: &Parameters) -> Vec<ObjectPart>
                 slab("left_wall", [0.0, y, t + h / 2.0], [ix, t, h]),
             ]
         }
+        ObjectKind::Cabinet(cabinet) => {
+            let handles = cabinet.handle_parts(object.center(parameters).y, parameters);
+            std::iter::once(cabinet.panel()).chain(handles).collect()
+        }
     }
 }
 
@@ -79,13 +94,25 @@ fn slab(name: &'static str, center: [f64; 3], size: [f64; 3]) -> ObjectPart {
     }
 }
 
-/// Builds all objects; returns the engine's body of each in their order.
-pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &Parameters, parts: &mut Parts) -> Vec<RigidBodyHandle> {
+/// Builds all objects; returns the engine's body of each in their order, of a cabinet that of its door, and the doors.
+pub(super) fn build(
+    engine: &mut PhysicsWorld,
+    objects: &[Object],
+    parameters: &Parameters,
+    parts: &mut Parts,
+) -> (Vec<RigidBodyHandle>, Vec<Door>) {
     let support = support_height_m(objects, parameters);
-    let mut bodies = Vec::with_capacity(objects.len());
+    let (mut bodies, mut doors) = (Vec::with_capacity(objects.len()), Vec::new());
     for (index, object) in objects.iter().enumerate() {
-        let matter = Matter::of(object, parameters);
         let pose = object.pose(parameters, support);
+        if let ObjectKind::Cabinet(cabinet) = &object.kind {
+            if let Some(door) = door::build(engine, (index, object), cabinet, &pose, parameters, parts) {
+                bodies.push(door.body);
+                doors.push(door);
+            }
+            continue;
+        }
+        let matter = Matter::of(object, parameters);
         let builder = if object.is_movable() {
             RigidBodyBuilder::dynamic().can_sleep(false).angular_damping(matter.angular_damping_per_s)
         } else {
@@ -95,7 +122,7 @@ pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &
         let body = engine.insert_body(builder.pose(convert::pose(&pose)));
         for part in object_parts(object, parameters) {
             let name = if part.name.is_empty() { object.name.clone() } else { format!("{}.{}", object.name, part.name) };
-            let id = parts.add(Part { name, owner: Owner::Object(index) });
+            let id = parts.add(Part { name, owner: Owner::Object(index), handle: object.is_movable() });
             let collider =
                 collider(&part).friction(matter.friction).mass(matter.mass_kg).collision_groups(layer.groups()).user_data(id as u128);
             engine.insert_collider(collider, Some(body));
@@ -106,10 +133,11 @@ pub(super) fn build(engine: &mut PhysicsWorld, objects: &[Object], parameters: &
         }
         bodies.push(body);
     }
-    bodies
+    (bodies, doors)
 }
 
-fn collider(part: &ObjectPart) -> ColliderBuilder {
+/// The engine's collider of a part.
+pub(super) fn collider(part: &ObjectPart) -> ColliderBuilder {
     let (shape, mut part_from_shape) = match part.shape {
         PartShape::Box(half) => (SharedShape::cuboid(half.x, half.y, half.z), UnitQuaternion::identity()),
         PartShape::Ball(radius) => (SharedShape::ball(radius), UnitQuaternion::identity()),
@@ -117,6 +145,7 @@ fn collider(part: &ObjectPart) -> ColliderBuilder {
         PartShape::Cylinder(radius, height) => {
             (SharedShape::cylinder(height / 2.0, radius), UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2))
         }
+        PartShape::Capsule(radius, height) => (SharedShape::capsule_z(height / 2.0, radius), UnitQuaternion::identity()),
     };
     part_from_shape = part.object_from_part.rotation * part_from_shape;
     ColliderBuilder::new(shape).position(convert::pose(&Isometry3::from_parts(part.object_from_part.translation, part_from_shape)))
@@ -139,6 +168,8 @@ impl Matter {
             ObjectKind::Table { friction, .. } | ObjectKind::UBlock { friction, .. } | ObjectKind::Basket { friction, .. } => {
                 (&weightless, friction, 0.0)
             }
+            // Built in its own way.
+            ObjectKind::Cabinet(_) => (&weightless, &weightless, 0.0),
         };
         Self { mass_kg: mass.resolve(parameters), friction: friction.resolve(parameters), angular_damping_per_s }
     }

@@ -5,6 +5,7 @@ use std::hash::Hasher;
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::RigidBodyHandle;
 
+use super::hook::Hook;
 use super::simulated_world::World;
 use super::{Clearance, ContactEpisode, GraspState, convert};
 
@@ -52,8 +53,11 @@ impl World {
         }
     }
 
-    /// Measured opening of the gripper (0 closed … 1 open); 1 without a gripper.
+    /// Measured opening of the gripper (0 closed … 1 open); of a hook 0 while its clamp holds something; 1 without either.
     pub fn gripper_opening(&self) -> f64 {
+        if self.hook.as_ref().is_some_and(Hook::holds) {
+            return 0.0;
+        }
         match (self.finger_range, self.limbs.fingers.first()) {
             (Some((closed, open)), Some(&leader)) => (self.joint_state.0[leader] - closed) / (open - closed),
             _ => 1.0,
@@ -81,7 +85,7 @@ impl World {
         self.tool_pose().inverse() * self.grasp_state().pose
     }
 
-    /// `world_from_object` of the object with this index.
+    /// `world_from_object` of the object with this index; of a cabinet, of its door.
     pub fn object_pose(&self, object: usize) -> Isometry3<f64> {
         self.body_pose(self.objects[object])
     }
@@ -89,6 +93,12 @@ impl World {
     /// Speed of the object with this index (m/s).
     pub fn object_speed(&self, object: usize) -> f64 {
         self.engine.bodies.get(self.objects[object]).map_or(0.0, |body| body.linvel().length())
+    }
+
+    /// Force by the objects on fingers and tool in the last step, as the engine solved it: through a clamp, and normal to the surfaces that
+    /// touch (N, world).
+    pub fn tool_force(&self) -> Vector3<f64> {
+        self.contacts.tool_force + self.hook.as_ref().map_or_else(Vector3::zeros, |hook| hook.force)
     }
 
     /// `world_from_body` of every body of the robot model.

@@ -6,11 +6,13 @@ use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyHandle};
 use twox_hash::XxHash3_64;
 
 use super::contacts::ContactBook;
+use super::door::Door;
+use super::hook::Hook;
 use super::parts::Parts;
 use super::robot_body::{Limbs, RobotBody};
 use super::state_trace::{Tracer, state_of};
 use super::watch::EngineWatch;
-use super::{HandWrench, Object, Parameters, PhysicsSettings, WorldError, convert, overlap, physics, scene};
+use super::{HandWrench, Object, ObjectKind, Parameters, PhysicsSettings, WorldError, convert, overlap, physics, scene};
 use crate::robot::{JointCommand, RobotModel};
 
 /// What a world is made of.
@@ -52,6 +54,8 @@ pub struct World {
     pub(super) contacts: ContactBook,
     pub(super) watch: Option<EngineWatch>,
     pub(super) held: Vec<usize>,
+    pub(super) doors: Vec<Door>,
+    pub(super) hook: Option<Hook>,
     pub(super) joint_state: (Vec<f64>, Vec<f64>),
     pub(super) hand: HandWrench,
     pub(super) hasher: XxHash3_64,
@@ -84,10 +88,11 @@ impl World {
             let own = model.joints[limbs.working[dof]].friction;
             robot.working.set_friction(&mut engine, dof, own + settings.dry_friction_nm);
         }
-        let objects = scene::build(&mut engine, settings.objects, settings.parameters, &mut parts);
+        let (objects, doors) = scene::build(&mut engine, settings.objects, settings.parameters, &mut parts);
         let movable: Vec<bool> = settings.objects.iter().map(Object::is_movable).collect();
         let names: Vec<String> = settings.objects.iter().map(|o| o.name.clone()).collect();
         let watch = settings.watch.then(|| EngineWatch::new(&engine, &parts, &names, &movable));
+        let hook = hook_of(settings, &limbs, &robot, &objects);
         let n = limbs.working.len();
         let mut world = Self {
             engine,
@@ -100,6 +105,8 @@ impl World {
             contacts: ContactBook::default(),
             watch,
             held: Vec::new(),
+            doors,
+            hook,
             joint_state: (vec![0.0; n], vec![0.0; n]),
             hand: HandWrench::default(),
             hasher: XxHash3_64::with_seed(0),
@@ -123,8 +130,11 @@ impl World {
         }
     }
 
-    /// Makes the gripper seek `opening` (0 closed … 1 open) with its limited force.
+    /// Makes the gripper seek `opening` (0 closed … 1 open) with its limited force; a hook's clamp closes below one half.
     pub fn command_gripper(&mut self, opening: f64) {
+        if let Some(hook) = &mut self.hook {
+            hook.closed = opening < 0.5;
+        }
         if let (Some((closed, open)), Some(&leader)) = (self.finger_range, self.limbs.fingers.first()) {
             self.robot.working.seek(&mut self.engine, leader, closed + opening.clamp(0.0, 1.0) * (open - closed));
         }
@@ -145,9 +155,16 @@ impl World {
             idle.act(&mut self.engine);
         }
         self.apply_hand();
+        if let Some(hook) = &mut self.hook {
+            hook.act(&mut self.engine);
+        }
+        self.doors.iter().for_each(|door| door.act(&mut self.engine));
         self.step += 1;
         physics::step(&mut self.engine, &self.parts, self.step)?;
         self.robot.working.settle_efforts(&self.engine);
+        if let Some(hook) = &mut self.hook {
+            hook.read(&self.engine);
+        }
         self.read_joints();
         let time_s = self.time_s();
         self.contacts.record(&self.engine, &self.parts, &self.movable, time_s);
@@ -164,7 +181,7 @@ impl World {
         let start_s = (self.step - 1) as f64 * self.engine.integration_parameters.dt;
         watch.follow(&self.engine, &self.held, (start_s, time_s));
         for touch in &watch.book.touches {
-            self.contacts.note(touch, &self.parts, &self.movable);
+            self.contacts.note(touch, &self.parts);
         }
     }
 
@@ -203,6 +220,19 @@ impl World {
             }
         }
     }
+}
+
+/// The hook, when the robot has no fingers and there is a cabinet to open.
+fn hook_of(settings: &WorldSettings, limbs: &Limbs, robot: &RobotBody, bodies: &[RigidBodyHandle]) -> Option<Hook> {
+    if !limbs.fingers.is_empty() {
+        return None;
+    }
+    settings.objects.iter().zip(bodies).find_map(|(object, &door)| {
+        let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
+        let hinge_y_m = object.center(settings.parameters).y;
+        let tool = (robot.bodies[limbs.tool_body], limbs.body_from_tool);
+        Some(Hook::new(cabinet, settings.parameters, hinge_y_m, door, tool))
+    })
 }
 
 /// Range of a gripper's leading finger: where it is closed and where it is open (m).

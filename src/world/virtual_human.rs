@@ -130,6 +130,15 @@ pub fn pointing_down(yaw_rad: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad) * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
 }
 
+/// Orientation of a tool that points down, is then lifted by `pitch_rad` towards the front (pi/2: it points forward), turned by `yaw_rad`
+/// about the vertical, and by `roll_rad` about its own z axis.
+pub fn tool_orientation(yaw_rad: f64, pitch_rad: f64, roll_rad: f64) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad)
+        * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -pitch_rad)
+        * pointing_down(0.0)
+        * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), roll_rad)
+}
+
 fn point_of(grasp: &GraspState) -> Point3<f64> {
     Point3::from(grasp.pose.translation.vector)
 }

@@ -67,8 +67,8 @@ mod tests {
     fn what_passes_through_a_sheet_between_two_steps_is_found() {
         let (mut engine, mut parts) = (physics::engine(&PhysicsSettings::default()), Parts::default());
         let owner = Owner::Robot { body: 1, finger: false, limb: Limb::Working };
-        let tip = parts.add(Part { name: "tip".into(), owner });
-        let sheet = parts.add(Part { name: "sheet".into(), owner: Owner::Object(0) });
+        let tip = parts.add(Part { name: "tip".into(), owner, handle: false });
+        let sheet = parts.add(Part { name: "sheet".into(), owner: Owner::Object(0), handle: false });
         let start = Pose::translation(-0.0137, 0.0, 0.0);
         let body = engine.insert_body(RigidBodyBuilder::kinematic_position_based().pose(start));
         engine.insert_collider(ColliderBuilder::new(SharedShape::ball(0.001)).user_data(tip as u128), Some(body));

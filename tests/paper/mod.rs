@@ -1,5 +1,6 @@
 //! The paper's experiments, on synthetic data and judged from the simulated world.
 
+mod cabinet_door;
 mod dataset_damage;
 mod dataset_import;
 mod execution_modes;

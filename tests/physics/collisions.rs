@@ -8,7 +8,7 @@ use cpdmp::world::{
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use parry3d_f64::math::{Pose, Rotation, Vector};
 use parry3d_f64::query;
-use parry3d_f64::shape::{Ball, Cuboid, Cylinder, Shape as ParryShape};
+use parry3d_f64::shape::{Ball, Capsule, Cuboid, Cylinder, Shape as ParryShape};
 
 use crate::support::{LEFT_POSTURE, baxter, object};
 
@@ -120,6 +120,7 @@ pub fn pieces(objects: &[Object], parameters: &Parameters, support_height_m: f64
             let shape: Box<dyn ParryShape> = match part.shape {
                 PartShape::Box(half) => Box::new(Cuboid::new(Vector::new(half.x, half.y, half.z))),
                 PartShape::Ball(radius) => Box::new(Ball::new(radius)),
+                PartShape::Capsule(radius, height) => Box::new(Capsule::new_z(height / 2.0, radius)),
                 PartShape::Cylinder(..) => panic!("the scenes of these tests have none"),
             };
             let name = if part.name.is_empty() { object.name.clone() } else { format!("{}.{}", object.name, part.name) };

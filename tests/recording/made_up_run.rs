@@ -78,6 +78,7 @@ fn learned(shaping: ShapingKind) -> RunOutcome {
         learning: learned.report,
         plan,
         human_peak_force_n: 15.0,
+        tool_peak_force_n: 0.0,
         goal: nalgebra::Vector3::zeros(),
         collisions: Vec::new(),
         clearances: vec![clearance],
@@ -132,6 +133,8 @@ fn record(i: usize, bodies: usize, objects: usize) -> StepRecord {
         activation: if COMPLIES.contains(&i) { 0.9 } else { 0.0 },
         gripper_command: if CLOSED.contains(&i) { 0.0 } else { 1.0 },
         gripper_opening: if CLOSED.contains(&i) { 0.21 } else { 0.98 },
+        tool_force: Vector3::zeros(),
+        tool_impulse: Vector3::zeros(),
         human: if HOLDS.contains(&i) {
             AppliedForce { point: Point3::from(vector(9.0)), force: vector(10.0) }
         } else {

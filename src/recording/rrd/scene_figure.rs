@@ -1,13 +1,13 @@
 //! The objects of the scene.
 
 use nalgebra::Isometry3;
-use rerun::{Boxes3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
+use rerun::{Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
 
 use super::convert;
 use super::entity_path::{Entity, OBJECT, OBJECT_SHAPE, Timeline};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{Experiment, StepRecord};
-use crate::world::{Object, ObjectKind, Parameters, PartShape, object_parts, support_height_m};
+use crate::world::{Object, ObjectKind, ObjectPart, Parameters, PartShape, fixed_parts, object_parts, support_height_m};
 
 /// Logs every object: its shapes, and its pose over time.
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
@@ -21,21 +21,41 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
             recorder.always(entity, &convert::transform(&object.pose(&experiment.parameters, support)))?;
         }
         log_shapes(recorder, None, &OBJECT_SHAPE, object, &experiment.parameters)?;
+        let pose = object.pose(&experiment.parameters, support);
+        log_fixed(recorder, None, (&OBJECT, &OBJECT_SHAPE), object, &pose)?;
     }
     Ok(())
 }
 
-/// Logs what an object looks like in a setting: from a moment on, or at all times.
-pub(super) fn log_shapes(
+/// From when on something is logged; none: at all times.
+pub(super) type Since = Option<(Timeline, f64)>;
+
+/// Logs what an object looks like in a setting.
+pub(super) fn log_shapes(recorder: &Recorder, when: Since, entity: &Entity, object: &Object, parameters: &Parameters) -> Result<(), Fault> {
+    log_parts(recorder, when, (entity, &object.name), color(object), &object_parts(object, parameters))
+}
+
+/// Logs the parts of a moving object that stand still, as an object of their own at `pose`.
+pub(super) fn log_fixed(
     recorder: &Recorder,
-    when: Option<(Timeline, f64)>,
-    entity: &Entity,
+    when: Since,
+    (place, shape): (&Entity, &Entity),
     object: &Object,
-    parameters: &Parameters,
+    pose: &Isometry3<f64>,
 ) -> Result<(), Fault> {
-    let color = color(object);
-    let (mut boxes, mut balls, mut cylinders) = (Vec::new(), Vec::new(), Vec::new());
-    for part in object_parts(object, parameters) {
+    let parts = fixed_parts(object);
+    if parts.is_empty() {
+        return Ok(());
+    }
+    let name = format!("{}_fixed", object.name);
+    let at = convert::transform(pose);
+    recorder.from(when, place.of(&[&name]), &at)?;
+    log_parts(recorder, when, (shape, &name), color(object), &parts)
+}
+
+fn log_parts(recorder: &Recorder, when: Since, (entity, name): (&Entity, &str), color: Color, parts: &[ObjectPart]) -> Result<(), Fault> {
+    let (mut boxes, mut balls, mut cylinders, mut bars) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for part in parts {
         let pose = part.object_from_part;
         let place = convert::vector(&pose.translation.vector);
         match part.shape {
@@ -44,6 +64,11 @@ pub(super) fn log_shapes(
             PartShape::Cylinder(radius, height) => {
                 cylinders.push((place, convert::quaternion(&pose.rotation), radius as f32, height as f32));
             }
+            PartShape::Capsule(radius, height) => {
+                // A capsule of the viewer begins at its origin.
+                let foot = pose * nalgebra::Point3::new(0.0, 0.0, -height / 2.0);
+                bars.push((convert::vector(&foot.coords), convert::quaternion(&pose.rotation), radius as f32, height as f32));
+            }
         }
     }
     if !boxes.is_empty() {
@@ -51,13 +76,13 @@ pub(super) fn log_shapes(
             .with_quaternions(boxes.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.from(when, entity.of(&[&object.name, "boxes"]), &solid)?;
+        recorder.from(when, entity.of(&[name, "boxes"]), &solid)?;
     }
     if !balls.is_empty() {
         let solid = Ellipsoids3D::from_centers_and_radii(balls.iter().map(|b| b.0), balls.iter().map(|b| b.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.from(when, entity.of(&[&object.name, "balls"]), &solid)?;
+        recorder.from(when, entity.of(&[name, "balls"]), &solid)?;
     }
     if !cylinders.is_empty() {
         let solid = Cylinders3D::from_lengths_and_radii(cylinders.iter().map(|c| c.3), cylinders.iter().map(|c| c.2))
@@ -65,7 +90,15 @@ pub(super) fn log_shapes(
             .with_quaternions(cylinders.iter().map(|c| c.1))
             .with_colors([color])
             .with_fill_mode(FillMode::Solid);
-        recorder.from(when, entity.of(&[&object.name, "cylinders"]), &solid)?;
+        recorder.from(when, entity.of(&[name, "cylinders"]), &solid)?;
+    }
+    if !bars.is_empty() {
+        let solid = Capsules3D::from_lengths_and_radii(bars.iter().map(|b| b.3), bars.iter().map(|b| b.2))
+            .with_translations(bars.iter().map(|b| b.0))
+            .with_quaternions(bars.iter().map(|b| b.1))
+            .with_colors([color])
+            .with_fill_mode(FillMode::Solid);
+        recorder.from(when, entity.of(&[name, "bars"]), &solid)?;
     }
     Ok(())
 }
@@ -80,5 +113,6 @@ fn color(object: &Object) -> Color {
         ObjectKind::Cylinder { .. } => Color::from_rgb(236, 146, 62),
         ObjectKind::SpringPlate { .. } => Color::from_rgb(120, 170, 120),
         ObjectKind::Box { .. } => Color::from_rgb(214, 108, 70),
+        ObjectKind::Cabinet(_) => Color::from_rgb(172, 152, 122),
     }
 }

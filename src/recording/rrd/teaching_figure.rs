@@ -16,6 +16,7 @@ use super::robot_figure;
 use super::scene_figure;
 use crate::robot::RobotModel;
 use crate::simulation::{Experiment, LessonLook, LessonRecord};
+use crate::world::support_height_m;
 
 /// Time between two lessons on the timeline (s).
 const PAUSE_S: f64 = 1.0;
@@ -32,6 +33,8 @@ pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, robot: &
         for object in &experiment.objects {
             let when = Some((TEACHING_TIME, start_s));
             scene_figure::log_shapes(recorder, when, &TEACHING_OBJECT_SHAPE, object, &lesson.parameters)?;
+            let pose = object.pose(&lesson.parameters, support_height_m(&experiment.objects, &lesson.parameters));
+            scene_figure::log_fixed(recorder, when, (&TEACHING_OBJECT, &TEACHING_OBJECT_SHAPE), object, &pose)?;
         }
     }
     film.log_bodies(recorder, robot)?;
