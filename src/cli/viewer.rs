@@ -33,7 +33,24 @@ impl Viewer {
     /// # Errors
     /// In words, when it cannot be started.
     pub fn show(&self, recording: &Path) -> Result<Child, String> {
-        self.start(&[recording.as_os_str()])
+        self.start(self.window().arg(recording))
+    }
+
+    /// Serves a recording as a page, at a port of this machine that no other machine reaches. It ends with whoever started it.
+    ///
+    /// # Errors
+    /// In words, when it cannot be started.
+    pub fn serve(&self, recording: &Path, port: u16) -> Result<Child, String> {
+        let mut command = Command::new(&self.viewer_program);
+        let bind = Ipv4Addr::LOCALHOST.to_string();
+        command.arg(recording).args(["--web-viewer", "--bind", &bind, "--web-viewer-port", &port.to_string()]);
+        self.start(&mut command)
+    }
+
+    /// The address of the page that is served at `port`.
+    pub fn page(&self, port: u16) -> String {
+        let host = Ipv4Addr::LOCALHOST;
+        format!("http://{host}:{port}?url=rerun%2Bhttp%3A%2F%2F{host}%3A{}%2Fproxy", self.viewer_port)
     }
 
     /// A viewer for a run that begins: the one that is open, or one of its own.
@@ -41,17 +58,22 @@ impl Viewer {
     /// # Errors
     /// In words, when it cannot be started.
     pub fn open(&self) -> Result<Open<'_>, String> {
-        let started = if self.listens() { None } else { Some(self.start(&[])?) };
+        let started = if self.listens() { None } else { Some(self.start(&mut self.window())?) };
         Ok(Open { viewer: self, started })
     }
 
-    fn start(&self, arguments: &[&std::ffi::OsStr]) -> Result<Child, String> {
+    /// A viewer that outlives its run: Ctrl-C ends a run, not what shows it.
+    fn window(&self) -> Command {
+        #[allow(unused_mut, reason = "there are process groups on Unix alone")]
         let mut command = Command::new(&self.viewer_program);
-        command.args(arguments).arg("--port").arg(self.viewer_port.to_string());
-        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-        // Ctrl-C ends a run, not what shows it.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        command
+    }
+
+    fn start(&self, command: &mut Command) -> Result<Child, String> {
+        command.arg("--port").arg(self.viewer_port.to_string());
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
         command.spawn().map_err(|error| self.why_not(&error))
     }
 

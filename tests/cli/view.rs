@@ -47,6 +47,18 @@ fn a_run_is_shown_by_folder_or_by_file() {
     }
 }
 
+/// Contract: what is served in a browser is served to this machine alone, and where is told.
+#[test]
+fn a_run_is_served_to_a_browser_until_it_is_ended() {
+    let folder = with_viewer("sleep 3");
+    let started = Instant::now();
+    let said = folder.call(&["view", "run", "--web", "--web-port", "9191", "--viewer-port", "9877", "--viewer-program", "./viewer"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(started.elapsed() >= Duration::from_secs(3), "it stays as long as its viewer");
+    assert_eq!(asked(&folder, 1), ["run/recording.rrd --web-viewer --bind 127.0.0.1 --web-viewer-port 9191 --port 9877"]);
+    assert!(said.stderr.contains("http://127.0.0.1:9191?url=rerun%2Bhttp%3A%2F%2F127.0.0.1%3A9877%2Fproxy"), "{}", said.stderr);
+}
+
 #[test]
 fn what_cannot_be_shown_is_told() {
     let folder = with_viewer("exit 1");
@@ -54,6 +66,7 @@ fn what_cannot_be_shown_is_told() {
         (["view", "nothing", "--viewer-program", "./viewer"], 3, "recording.rrd = false"),
         (["view", "run", "--viewer-program", "no-such-viewer"], 20, "pip install rerun-sdk"),
         (["view", "run", "--viewer-program", "./viewer"], 20, "is there a display"),
+        (["view", "run", "--web", "--viewer-program=./viewer"], 20, "are the ports 9090 and 9876 free"),
     ] {
         let said = folder.call(&arguments);
         assert_eq!(said.code, Some(code), "{}", said.stderr);
