@@ -77,7 +77,10 @@ impl View {
         let program = self.viewer.viewer_program.display();
         if self.web {
             let ports = (self.web_port, self.viewer.viewer_port);
-            format!("the viewer `{program}` ended at once ({status}): are the ports {} and {} free (--web-port, --viewer-port)?", ports.0, ports.1)
+            format!(
+                "the viewer `{program}` ended at once ({status}): are the ports {} and {} free (--web-port, --viewer-port)?",
+                ports.0, ports.1
+            )
         } else {
             format!("the viewer `{program}` ended at once ({status}): is there a display? --web shows it in a browser")
         }
