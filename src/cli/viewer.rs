@@ -62,13 +62,8 @@ impl Viewer {
         Ok(Open { viewer: self, started })
     }
 
-    /// A viewer that outlives its run: Ctrl-C ends a run, not what shows it.
     fn window(&self) -> Command {
-        #[allow(unused_mut, reason = "there are process groups on Unix alone")]
-        let mut command = Command::new(&self.viewer_program);
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        command
+        apart(Command::new(&self.viewer_program))
     }
 
     fn start(&self, command: &mut Command) -> Result<Child, String> {
@@ -92,6 +87,18 @@ impl Viewer {
             _ => format!("the viewer `{program}` cannot be started: {error}"),
         }
     }
+}
+
+/// A program that outlives this one: Ctrl-C ends a run, not what shows it.
+#[cfg(unix)]
+fn apart(mut command: Command) -> Command {
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    command
+}
+
+#[cfg(not(unix))]
+fn apart(command: Command) -> Command {
+    command
 }
 
 /// The viewer of a run that goes on.
