@@ -79,7 +79,7 @@ pub(super) enum Command {
 pub(super) struct Run {
     #[command(flatten)]
     pub scenarios: Paths,
-    /// Show the recording in the rerun viewer as soon as it is there; a viewer that is missing changes nothing about the run
+    /// Show the run in the rerun viewer while it goes on; a viewer that is missing, slow or closed changes nothing about the run
     #[arg(long, env = "CPDMP_VIEWER")]
     pub viewer: bool,
     #[command(flatten)]

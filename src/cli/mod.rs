@@ -43,6 +43,8 @@ mod terminal;
 mod validate;
 mod view;
 mod viewer;
+#[cfg(feature = "rerun")]
+mod watched;
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -9,6 +9,9 @@ use super::load::{Ready, load_all};
 use super::progress::Shown;
 use super::select::select;
 use super::terminal::Terminal;
+use super::viewer::Open;
+#[cfg(feature = "rerun")]
+use super::watched::Watched;
 use crate::report::{Outcome, RunFolder, text};
 use crate::scenario::Work;
 
@@ -50,8 +53,13 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     };
     let started = std::time::SystemTime::now();
     terminal.note(&format!("{}: {}\n", ready.scenario.work.name(), ready.path.display()));
+    let viewer = arguments.viewer.then(|| open_viewer(arguments, terminal)).flatten();
     let progress = Shown::new(terminal, global.timeout);
+    #[cfg(feature = "rerun")]
+    let progress = Watched::new(progress, &ready.scenario, folder.staging(), viewer.as_ref().map(Open::address));
     let mut run = judged_run(&ready.scenario, &progress);
+    #[cfg(feature = "rerun")]
+    let (progress, grown) = progress.end();
     if !run.wants_folder() {
         drop(progress);
         match terminal.format {
@@ -60,7 +68,10 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
         }
         return run.report.outcome;
     }
-    let written = files::write(&mut run, &ready.scenario, &folder, started).and_then(|()| folder.finish());
+    let written = files::write(&mut run, &ready.scenario, &folder, started);
+    #[cfg(feature = "rerun")]
+    grown.settle(run.left.is_some());
+    let written = written.and_then(|()| folder.finish());
     drop(progress);
     match terminal.format {
         Format::Human => terminal.result(&text(&run.report)),
@@ -70,8 +81,8 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     match written {
         Ok(place) => {
             terminal.note(&format!("written to {}\n", place.display()));
-            if arguments.viewer {
-                show(&place, arguments, terminal);
+            if let Some(Err(message)) = viewer.map(|viewer| viewer.show(&place.join("recording.rrd"))) {
+                terminal.note(&format!("{message}\n"));
             }
             run.report.outcome
         }
@@ -82,15 +93,9 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     }
 }
 
-/// Shows the recording of a run that is over. That there is no viewer, or nothing to show, is worth a line and no more.
-fn show(folder: &Path, arguments: &Run, terminal: &Terminal) {
-    let recording = folder.join("recording.rrd");
-    if !recording.is_file() {
-        return terminal.note("there is no recording to show\n");
-    }
-    if let Err(message) = arguments.with.show(&recording) {
-        terminal.note(&format!("{message}\n"));
-    }
+/// That there is no viewer is worth a line and no more.
+fn open_viewer<'a>(arguments: &'a Run, terminal: &Terminal) -> Option<Open<'a>> {
+    arguments.with.open().map_err(|message| terminal.note(&format!("{message}\n"))).ok()
 }
 
 fn tell_warnings(warnings: &[String], global: &Global, terminal: &Terminal) {

@@ -72,7 +72,9 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
             tool_peak_force_n = now.world.tool_force().norm().max(tool_peak_force_n);
             tool_impulse += now.world.tool_force() * step_s;
             if now.world.step().is_multiple_of(every) {
-                records.push(record(now, names.len(), tool_impulse));
+                let record = record(now, names.len(), tool_impulse);
+                progress.stepped(&record);
+                records.push(record);
             }
             settled += u64::from(now.controller.telemetry().time_fraction >= 1.0);
             slowest == 1.0 || settled <= settle

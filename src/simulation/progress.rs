@@ -1,5 +1,8 @@
 //! How a run says where it is. Nothing it says depends on who listens.
 
+use super::{LessonRecord, RunOutcome, StepRecord};
+use crate::robot::RobotModel;
+
 /// Somebody who wants to know how far a run is. Called from several threads.
 pub trait Progress: Sync {
     /// A phase begins that will take this many steps.
@@ -14,6 +17,12 @@ pub trait Progress: Sync {
     fn may_go_on(&self) -> bool {
         true
     }
+    /// The demonstrations have been taught.
+    fn taught(&self, _robot: &RobotModel, _lessons: &[LessonRecord]) {}
+    /// The skill is learned and its movement planned; `outcome` holds everything that comes before the execution.
+    fn planned(&self, _outcome: &RunOutcome) {}
+    /// A step of the execution has been logged. Called within the step: a listener that takes its time delays the run.
+    fn stepped(&self, _record: &StepRecord) {}
 }
 
 /// Nobody listens.

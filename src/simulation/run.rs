@@ -1,5 +1,6 @@
 //! One experiment from beginning to end, and its three parts for those who repeat only one of them.
 
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use twox_hash::XxHash3_64;
 
@@ -56,43 +57,57 @@ pub fn perform(
     progress: &dyn Progress,
 ) -> Result<RunOutcome, SimulationError> {
     let started = progress.elapsed_s();
-    let question = setup.experiment.question();
-    let plan = setup.with_place(learning::generate(&learned.skill, &question, 1.0 / setup.experiment.log_rate_hz, 1.0)?)?;
+    let mut outcome = planned(setup, dataset, learned, std::mem::take(&mut history.lessons))?;
+    progress.planned(&outcome);
     progress.phase("execute", 0);
     let executed = execute(setup, &learned.skill, progress)?;
-    let mut report = learned.report.clone();
     if setup.experiment.trace.every_steps > 0 {
         history.traces.push(WorldTrace::of_text("learn", "skill", &learned.skill.to_json()?));
     }
-    report.warnings.extend(extrapolation(setup, &learned.skill)?);
     history.hashes.push(executed.state_hash);
     history.traces.extend(WorldTrace::of("execute", 0, executed.trace));
     history.close("execute", executed.steps, started, progress);
-    let state_hash = history.hash();
-    let left = RunOutcome {
+    outcome.state_hash = history.hash();
+    outcome.steps = executed.records;
+    outcome.human_peak_force_n = executed.human_peak_force_n;
+    outcome.tool_peak_force_n = executed.tool_peak_force_n;
+    outcome.goal = executed.goal;
+    outcome.collisions = executed.collisions;
+    outcome.clearances = executed.clearances;
+    outcome.final_objects = executed.final_objects;
+    outcome.phases = history.phases;
+    outcome.traces = history.traces;
+    match executed.cut_short {
+        None => Ok(outcome),
+        Some(reason) if outcome.steps.is_empty() => Err(reason),
+        Some(reason) => Err(SimulationError::CutShort { reason: Box::new(reason), left: Box::new(outcome) }),
+    }
+}
+
+/// What is known before the execution.
+fn planned(setup: &Setup, dataset: &Dataset, learned: &Learned, lessons: Vec<LessonRecord>) -> Result<RunOutcome, SimulationError> {
+    let question = setup.experiment.question();
+    let mut learning = learned.report.clone();
+    learning.warnings.extend(extrapolation(setup, &learned.skill)?);
+    Ok(RunOutcome {
         robot: setup.robot.clone(),
         robot_warnings: setup.warnings.clone(),
         dataset: dataset.clone(),
-        lessons: std::mem::take(&mut history.lessons),
+        lessons,
         skill: learned.skill.clone(),
-        learning: report,
-        plan,
-        steps: executed.records,
-        human_peak_force_n: executed.human_peak_force_n,
-        tool_peak_force_n: executed.tool_peak_force_n,
-        goal: executed.goal,
-        collisions: executed.collisions,
-        clearances: executed.clearances,
-        phases: history.phases,
-        state_hash,
-        traces: history.traces,
-        final_objects: executed.final_objects,
-    };
-    match executed.cut_short {
-        None => Ok(left),
-        Some(reason) if left.steps.is_empty() => Err(reason),
-        Some(reason) => Err(SimulationError::CutShort { reason: Box::new(reason), left: Box::new(left) }),
-    }
+        learning,
+        plan: setup.with_place(learning::generate(&learned.skill, &question, 1.0 / setup.experiment.log_rate_hz, 1.0)?)?,
+        steps: Vec::new(),
+        human_peak_force_n: 0.0,
+        tool_peak_force_n: 0.0,
+        goal: Vector3::zeros(),
+        collisions: Vec::new(),
+        clearances: Vec::new(),
+        phases: Vec::new(),
+        state_hash: 0,
+        traces: Vec::new(),
+        final_objects: Vec::new(),
+    })
 }
 
 /// Executes a skill that was learned before, and returns what is kept of the states: of the skill, and of the world in which it was executed.
@@ -139,6 +154,9 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     history.traces.extend(lessons.iter_mut().filter_map(|l| WorldTrace::of("teach", l.number, std::mem::take(&mut l.trace))));
     history.close("teach", lessons.iter().map(|lesson| lesson.steps).sum(), started, progress);
 
+    history.lessons = lessons.iter_mut().map(seen).collect();
+    progress.taught(&setup.robot, &history.lessons);
+
     let started = progress.elapsed_s();
     progress.phase("replay", each * lessons.len() as u64);
     let replays: Vec<(Demonstration, Replay)> = lessons
@@ -153,7 +171,6 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     history.close("replay", replays.iter().map(|(_, replayed)| replayed.steps).sum(), started, progress);
     let (demonstrations, replays): (Vec<Demonstration>, Vec<Replay>) = replays.into_iter().unzip();
     history.traces.extend((0..).zip(replays).filter_map(|(number, replayed)| WorldTrace::of("replay", number, replayed.trace)));
-    history.lessons = lessons.into_iter().map(seen).collect();
     Ok(Dataset {
         motion: setup.taught_motion(),
         wrench: ["fx_n", "fy_n", "fz_n"].map(String::from).to_vec(),
@@ -162,8 +179,9 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     })
 }
 
-fn seen(lesson: Lesson) -> LessonRecord {
-    LessonRecord { name: lesson.name, parameters: lesson.parameters, looks: lesson.looks }
+/// What the lesson looked like, taken from it.
+fn seen(lesson: &mut Lesson) -> LessonRecord {
+    LessonRecord { name: lesson.name.clone(), parameters: lesson.parameters.clone(), looks: std::mem::take(&mut lesson.looks) }
 }
 
 /// What has been simulated so far: the phases, the hashes of all worlds in a fixed order, and what the lessons looked like.

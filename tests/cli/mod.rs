@@ -6,6 +6,7 @@ mod commands;
 mod examples;
 mod generate;
 mod inspect;
+mod killed;
 mod learn;
 mod migrate;
 mod overrides;

@@ -2,6 +2,7 @@
 #![cfg(all(unix, feature = "rerun"))]
 
 use std::fs;
+use std::net::TcpListener;
 use std::os::unix::fs::PermissionsExt;
 use std::time::{Duration, Instant};
 
@@ -9,23 +10,31 @@ use super::{Folder, GOOD};
 
 /// A folder with a viewer that notes its arguments and then does what `then` says.
 fn with_viewer(then: &str) -> Folder {
-    let script = format!("#!/bin/sh\necho \"$@\" > asked.part && mv asked.part asked\n{then}\n");
+    let script = format!("#!/bin/sh\necho \"$@\" >> asked\n{then}\n");
     let folder = Folder::with(&[("viewer", script.as_bytes()), ("a.toml", GOOD.as_bytes()), ("run/recording.rrd", b"RRF2")]);
     let viewer = folder.path().join("viewer");
     fs::set_permissions(&viewer, fs::Permissions::from_mode(0o755)).expect("executable");
     folder
 }
 
-/// What the viewer was asked; waits until it was.
-fn asked(folder: &Folder) -> String {
+/// What the viewer was asked, line by line; waits until it was asked so often.
+fn asked(folder: &Folder, times: usize) -> Vec<String> {
     let started = Instant::now();
     loop {
-        match fs::read_to_string(folder.path().join("asked")) {
-            Ok(text) => return text,
-            Err(_) if started.elapsed() < Duration::from_secs(20) => std::thread::sleep(Duration::from_millis(20)),
-            Err(error) => panic!("the viewer was not asked: {error}"),
+        let text = fs::read_to_string(folder.path().join("asked")).unwrap_or_default();
+        let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        if lines.len() >= times && text.ends_with('\n') {
+            return lines;
         }
+        assert!(started.elapsed() < Duration::from_secs(20), "the viewer was asked for {lines:?}");
+        std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+/// A port at which nobody listens.
+fn free_port() -> String {
+    let address = TcpListener::bind("127.0.0.1:0").and_then(|listener| listener.local_addr());
+    address.expect("a free port").port().to_string()
 }
 
 #[test]
@@ -34,8 +43,20 @@ fn a_run_is_shown_by_folder_or_by_file() {
         let folder = with_viewer("exit 0");
         let said = folder.call(&["view", place, "--viewer-program", "./viewer"]);
         assert_eq!(said.code, Some(0), "{}", said.stderr);
-        assert_eq!(asked(&folder), "run/recording.rrd\n");
+        assert_eq!(asked(&folder, 1), ["run/recording.rrd --port 9876"]);
     }
+}
+
+/// Contract: what is served in a browser is served to this machine alone, and where is told.
+#[test]
+fn a_run_is_served_to_a_browser_until_it_is_ended() {
+    let folder = with_viewer("sleep 3");
+    let started = Instant::now();
+    let said = folder.call(&["view", "run", "--web", "--web-port", "9191", "--viewer-port", "9877", "--viewer-program", "./viewer"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(started.elapsed() >= Duration::from_secs(3), "it stays as long as its viewer");
+    assert_eq!(asked(&folder, 1), ["run/recording.rrd --web-viewer --bind 127.0.0.1 --web-viewer-port 9191 --port 9877"]);
+    assert!(said.stderr.contains("http://127.0.0.1:9191?url=rerun%2Bhttp%3A%2F%2F127.0.0.1%3A9877%2Fproxy"), "{}", said.stderr);
 }
 
 #[test]
@@ -45,6 +66,7 @@ fn what_cannot_be_shown_is_told() {
         (["view", "nothing", "--viewer-program", "./viewer"], 3, "recording.rrd = false"),
         (["view", "run", "--viewer-program", "no-such-viewer"], 20, "pip install rerun-sdk"),
         (["view", "run", "--viewer-program", "./viewer"], 20, "is there a display"),
+        (["view", "run", "--web", "--viewer-program=./viewer"], 20, "are the ports 9090 and 9876 free"),
     ] {
         let said = folder.call(&arguments);
         assert_eq!(said.code, Some(code), "{}", said.stderr);
@@ -52,15 +74,39 @@ fn what_cannot_be_shown_is_told() {
     }
 }
 
-/// Contract: a viewer that hangs or is missing neither delays nor fails a run.
+/// Contract: a viewer that hangs, is missing or cannot stay neither delays nor fails a run.
 #[test]
 fn a_run_does_not_depend_on_its_viewer() {
     let folder = with_viewer("sleep 30; touch closed");
-    let said = folder.call(&["run", "a.toml", "--viewer", "--viewer-program", "./viewer"]);
+    let port = free_port();
+    let run = |viewer: &str| folder.call(&["run", "a.toml", "--viewer", "--viewer-program", viewer, "--viewer-port", &port]);
+    let said = run("./viewer");
     assert_eq!(said.code, Some(0), "{}", said.stderr);
-    assert_eq!(asked(&folder), "runs/good-0/recording.rrd\n");
+    assert_eq!(asked(&folder, 2), [format!("--port {port}"), format!("runs/good-0/recording.rrd --port {port}")]);
     assert!(!folder.path().join("closed").exists(), "the run waited for its viewer");
-    let said = folder.call(&["run", "a.toml", "--viewer", "--viewer-program", "no-such-viewer"]);
+    let said = run("no-such-viewer");
     assert_eq!(said.code, Some(0), "{}", said.stderr);
     assert!(said.stderr.contains("pip install rerun-sdk"), "{}", said.stderr);
+    let folder = with_viewer("exit 1");
+    let said = folder.call(&["run", "a.toml", "--viewer", "--viewer-program", "./viewer", "--viewer-port", &port]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(said.stderr.contains("cpdmp view"), "{}", said.stderr);
+}
+
+/// Contract: a viewer that takes the connection up and never says a word keeps a run waiting for two seconds at most.
+#[test]
+fn a_viewer_that_never_answers_does_not_delay_a_run() {
+    let folder = with_viewer("exit 0");
+    let silent = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = silent.local_addr().expect("its address").port().to_string();
+    let started = Instant::now();
+    let said = folder.call(&["run", "a.toml"]);
+    let alone = started.elapsed();
+    let started = Instant::now();
+    let watched = folder.call(&["run", "a.toml", "--viewer", "--viewer-program", "./viewer", "--viewer-port", &port]);
+    let longer = started.elapsed().saturating_sub(alone);
+    assert_eq!((said.code, watched.code), (Some(0), Some(0)), "{}", watched.stderr);
+    // As long again, for a machine that was busier the second time.
+    assert!(longer < Duration::from_secs(2) + alone, "{longer:?} longer than {alone:?}");
+    assert_eq!(said.stdout.lines().last(), watched.stdout.lines().last(), "the same state hash");
 }

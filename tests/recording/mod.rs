@@ -2,10 +2,14 @@
 
 #[cfg(feature = "rerun")]
 mod documented;
+#[cfg(feature = "rerun")]
+mod live_recording;
 pub mod made_up_run;
 mod path_log;
 #[cfg(feature = "rerun")]
 mod planar_recording;
+#[cfg(feature = "rerun")]
+pub mod read_rrd;
 #[cfg(feature = "rerun")]
 mod recording_file;
 mod step_log;

@@ -21,9 +21,10 @@ pub(super) enum Kind {
     Fault,
 }
 
-/// Logs the events of a run.
-pub(super) fn log_events(recorder: &Recorder, outcome: &RunOutcome) -> Result<(), Fault> {
-    let events = events(outcome);
+/// Logs the events of a run that come after `after_s` (s), or all of them.
+pub(super) fn log_events(recorder: &Recorder, outcome: &RunOutcome, after_s: Option<f64>) -> Result<(), Fault> {
+    let mut events = events(outcome);
+    events.retain(|event| after_s.is_none_or(|after_s| event.time_s > after_s));
     let times: Vec<f64> = events.iter().map(|event| event.time_s).collect();
     let level = |event: &Event| match event.kind {
         Kind::Note => rerun::TextLogLevel::INFO,

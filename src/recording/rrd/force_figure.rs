@@ -64,8 +64,10 @@ fn log_power(plot: &Plot) -> Result<(), Fault> {
         let way = after.human.point - before.human.point;
         if holds(before) && holds(after) { after.human.force.dot(&way) / (after.time_s - before.time_s) } else { 0.0 }
     };
-    let first = plot.records.first().map(|_| 0.0);
-    let values: Vec<f64> = first.into_iter().chain(plot.records.windows(2).map(of_pair)).collect();
+    // The first record has none before it: its pair is that of the second.
+    let pairs: Vec<f64> = plot.records.windows(2).map(of_pair).collect();
+    let first = plot.records.first().map(|_| pairs.first().copied().unwrap_or(0.0));
+    let values: Vec<f64> = first.into_iter().chain(pairs).collect();
     plot.recorder.every_step(entity, Scalars::new(values).columns_of_unit_batches()?)
 }
 

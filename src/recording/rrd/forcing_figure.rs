@@ -8,6 +8,7 @@ use super::palette;
 use super::paths::{AXES, COLUMNS, style};
 use super::recorder::{Fault, Recorder};
 use super::state_figure::{DEVIATIONS, POINTS};
+use super::task_states::betas;
 use crate::learning::motion_sequences;
 use crate::simulation::{Experiment, RunOutcome};
 
@@ -72,12 +73,12 @@ fn ellipses(experiment: &Experiment, outcome: &RunOutcome, column: usize) -> Res
     let skill = &outcome.skill;
     let Some(phmm) = skill.motion.phmm() else { return Ok(Vec::new()) };
     let phi = skill.motion.parameters.features.at(&skill.request(&experiment.question())?.theta);
-    let row = column + 1;
+    let (row, betas) = (column + 1, betas(experiment, skill)?);
     let ellipse = |state: usize| {
         let (mean, all) = (phmm.mean_at(state, &phi), &phmm.covariances[state]);
         Ellipse {
             state,
-            beta: skill.compliance.beta[state],
+            beta: betas[state],
             mean: [mean[0], mean[row]],
             covariance: [[all[(0, 0)], all[(0, row)]], [all[(row, 0)], all[(row, row)]]],
         }

@@ -33,36 +33,32 @@ pub(super) fn beta_color(beta: f64) -> Color {
     }
 }
 
-/// Logs all lanes; that of the states only for a skill that has some.
-pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], has_states: bool) -> Result<(), Fault> {
-    let lane = |entity: &Entity, value: &dyn Fn(&StepRecord) -> String, color: &dyn Fn(&StepRecord) -> Color| {
-        let (mut times, mut values) = (Vec::new(), Vec::new());
-        let mut legend: Vec<(String, Color)> = Vec::new();
-        for record in records {
-            let now = value(record);
-            if values.last() == Some(&now) {
-                continue;
-            }
-            if legend.iter().all(|(known, _)| *known != now) {
-                legend.push((now.clone(), color(record)));
-            }
-            times.push(record.time_s);
-            values.push(now);
-        }
+/// What a lane may show, and in which colour.
+type Legend = Vec<(String, Color)>;
+
+/// Logs all lanes; that of the states only for a skill that has some, with these betas.
+pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], betas: &[f64]) -> Result<(), Fault> {
+    let lane = |entity: &Entity, legend: Legend, value: &dyn Fn(&StepRecord) -> String| {
+        let values: Vec<String> = records.iter().map(value).collect();
+        let changed = |i: &usize| *i == 0 || values[*i] != values[i - 1];
+        let changes = (recorder.first()..values.len()).filter(changed).map(|i| (records[i].time_s, values[i].clone()));
+        let (times, changes): (Vec<f64>, Vec<String>) = changes.unzip();
         let configuration =
             StateConfiguration::new().with_values(legend.iter().map(|l| l.0.as_str())).with_colors(legend.iter().map(|l| l.1));
         recorder.always(entity.path(), &configuration)?;
-        recorder.at_times(entity.path(), &times, StateChange::new().with_state(values).columns_of_unit_batches()?)
+        recorder.at_times(entity.path(), &times, StateChange::new().with_state(changes).columns_of_unit_batches()?)
     };
-    let closed = |r: &StepRecord| r.gripper_command < CLOSED;
+    let of_two = |(on, color): (&str, Color), off: &str| vec![(on.to_owned(), color), (off.to_owned(), palette::IDLE)];
     let pick = |yes: bool, on: &str, off: &str| if yes { on.to_owned() } else { off.to_owned() };
-    let tint = |yes: bool, on: Color| if yes { on } else { palette::IDLE };
-    lane(&COMPLIANCE_LANE, &|r| beta_in_words(r.beta).to_owned(), &|r| beta_color(r.beta))?;
-    if has_states {
-        lane(&STATE_LANE, &|r| r.state.to_string(), &|r| shade(beta_color(r.beta), r.state))?;
+    let meanings = [0.0, -1.0, 1.0].map(|beta| (beta_in_words(beta).to_owned(), beta_color(beta)));
+    lane(&COMPLIANCE_LANE, meanings.to_vec(), &|r| beta_in_words(r.beta).to_owned())?;
+    if !betas.is_empty() {
+        let states = betas.iter().enumerate().map(|(state, beta)| (state.to_string(), shade(beta_color(*beta), state)));
+        lane(&STATE_LANE, states.collect(), &|r| r.state.to_string())?;
     }
-    lane(&PERSON_LANE, &|r| pick(holds(r), "holds", "hands off"), &|r| tint(holds(r), palette::PERSON))?;
-    lane(&GRIPPER_LANE, &|r| pick(closed(r), "closed", "open"), &|r| tint(closed(r), palette::EXECUTED))
+    lane(&PERSON_LANE, of_two(("holds", palette::PERSON), "hands off"), &|r| pick(holds(r), "holds", "hands off"))?;
+    let closed = |r: &StepRecord| r.gripper_command < CLOSED;
+    lane(&GRIPPER_LANE, of_two(("closed", palette::EXECUTED), "open"), &|r| pick(closed(r), "closed", "open"))
 }
 
 /// Neighbouring states of one colour, told apart by a shade.

@@ -29,7 +29,7 @@ const SCENE_TITLE: &str = "Execution: taught grey, planned blue, executed orange
 
 /// The layout with the properties of its views: one page for the execution, one for what came before it. `middle` is that of the way of the
 /// tool, `floor_m` the height of the floor (m, world).
-pub(super) fn layout(middle: Vector3<f64>, floor_m: f64, taught: bool) -> Result<(Blueprint, Properties), Fault> {
+pub(super) fn layout(middle: Vector3<f64>, floor_m: f64, taught: bool, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
     let mut views = Views::default();
     let execution = execution(&mut views, middle + TARGET_FROM_MIDDLE_M, floor_m)?.with_name("Execution");
     let teaching = teaching(&mut views, middle + TARGET_FROM_MIDDLE_M, floor_m)?.with_name("Teaching (timeline teaching_time)");
@@ -42,9 +42,7 @@ pub(super) fn layout(middle: Vector3<f64>, floor_m: f64, taught: bool) -> Result
     let blueprint = Blueprint::new(Tabs::new(pages))
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
-        .with_time_panel(
-            TimePanel::new().with_state(PanelState::Collapsed).with_timeline(SIM_TIME.name).with_play_state(PlayState::Paused),
-        );
+        .with_time_panel(TimePanel::new().with_state(PanelState::Collapsed).with_timeline(SIM_TIME.name).with_play_state(play));
     Ok((blueprint, views.properties))
 }
 
@@ -54,24 +52,27 @@ fn execution(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Ho
     let lateral = views.plot("Motion x (m): taught grey, planned blue, executed orange", "plots/motion/x", None)?;
     let vertical = views.plot("Motion z (m): taught grey, planned blue, executed orange", "plots/motion/z", None)?;
     let legend = Some(Corner2D::RightTop);
+    let beside =
+        |name: &str, plots: Vec<View>| -> ContainerLike { Horizontal::new(plots.into_iter().map(Into::into)).with_name(name).into() };
+    let force = ["x", "y", "z"].map(|axis| {
+        let legend = legend.filter(|_| axis == "x");
+        views.plot(&format!("Force {axis} (N)"), &format!("plots/force/{axis}"), legend)
+    });
+    let person = [views.plot("Force (N)", "plots/person/force", None)?, views.plot("Power (W)", "plots/person/power", None)?];
+    let forcing = [views.plot("Forcing x (m)", "plots/forcing/x", None)?, views.plot("Forcing z (m)", "plots/forcing/z", None)?];
     let more = [
-        views.plot("Force x (N)", "plots/force/x", legend)?,
-        views.plot("y", "plots/force/y", legend)?,
-        views.plot("z", "plots/force/z", legend)?,
-        views.plot("Person (N)", "plots/person/force", None)?,
-        views.plot("Power (W)", "plots/person/power", None)?,
-        views.plot("Forcing x", "plots/forcing/x", None)?,
-        views.plot("z", "plots/forcing/z", None)?,
-        views.plot("Coupling", "plots/coupling", legend)?,
-        views.plot("Gripper", "plots/gripper", Some(Corner2D::LeftBottom))?,
-        views.plot("Motion y", "plots/motion/y", None)?,
+        beside("Force", force.into_iter().collect::<Result<_, Fault>>()?),
+        beside("Person", person.into()),
+        beside("Forcing term", forcing.into()),
+        views.plot("Coupling (m)", "plots/coupling", legend)?.into(),
+        views.plot("Gripper", "plots/gripper", Some(Corner2D::LeftBottom))?.into(),
+        views.plot("Motion y (m)", "plots/motion/y", None)?.into(),
     ];
     let spread = views.plot("How far demonstrations disagree in the active state", "plots/spread", legend)?;
     let lanes = StateTimelineView::new("Compliance, gripper, person, state").with_origin("/lanes");
     let words = Tabs::new([views.events()?.into(), TextDocumentView::new("How to read").with_origin("/guide").into()]);
     let left = Vertical::new([scene.into(), words.into()]).with_row_shares(vec![5.0, 1.0]);
-    let right: [ContainerLike; 5] =
-        [lateral.into(), vertical.into(), Tabs::new(more.map(ContainerLike::from)).into(), spread.into(), lanes.into()];
+    let right: [ContainerLike; 5] = [lateral.into(), vertical.into(), Tabs::new(more).into(), spread.into(), lanes.into()];
     let right = Vertical::new(right).with_row_shares(vec![1.0, 1.0, 1.25, 0.7, 1.35]);
     Ok(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
 }

@@ -1,6 +1,7 @@
 //! The recording for the rerun viewer: the only place that knows rerun.
 
 mod blueprint_property;
+mod chapters;
 mod contact_figure;
 mod convert;
 pub mod entity_path;
@@ -10,6 +11,7 @@ mod forcing_figure;
 mod guide;
 mod lanes;
 mod layout;
+mod live;
 mod palette;
 mod paths;
 pub mod planar_entity;
@@ -30,5 +32,6 @@ mod task_states;
 mod teaching_figure;
 mod write;
 
+pub use live::LiveRecording;
 pub use planar_write::write_planar_recording;
 pub use write::write_recording;

@@ -19,8 +19,8 @@ pub(super) const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 /// Samples of a taught or planned path that are drawn: a piece of 0.1 s of a movement of 28 s.
 const DRAWN_SAMPLES: usize = 280;
 
-/// Logs all paths. `duration_s` is how long the execution of the skill takes.
-pub(super) fn log_paths(recorder: &Recorder, outcome: &RunOutcome, duration_s: f64) -> Result<(), Fault> {
+/// Logs what was taught and what is planned. `duration_s` is how long the execution of the skill takes.
+pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, duration_s: f64) -> Result<(), Fault> {
     for demonstration in &outcome.dataset.demonstrations {
         let path = Path::new(&demonstration.trajectory, duration_s);
         let name = demonstration.name.as_str();
@@ -39,10 +39,11 @@ pub(super) fn log_paths(recorder: &Recorder, outcome: &RunOutcome, duration_s: f
     for (axis, name) in AXES.iter().enumerate() {
         planned.log(recorder, &PLANNED_MOTION.of(&[name]), axis, &style("planned", palette::PLANNED, 2.0))?;
     }
-    log_executed(recorder, &outcome.steps)
+    Ok(())
 }
 
-fn log_executed(recorder: &Recorder, records: &[StepRecord]) -> Result<(), Fault> {
+/// Logs where the tool went.
+pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord]) -> Result<(), Fault> {
     let tools: Vec<_> = records.iter().map(|record| record.tool).collect();
     recorder.poses(TOOL.path(), &tools)?;
     let places: Vec<[f32; 3]> = tools.iter().map(|tool| convert::vector(&tool.translation.vector)).collect();

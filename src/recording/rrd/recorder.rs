@@ -15,14 +15,16 @@ use crate::simulation::StepRecord;
 /// What goes wrong while a file is written, before its path is added.
 pub(super) type Fault = Box<dyn std::error::Error + Send + Sync>;
 
-/// Writes entities of one run.
+/// Writes entities of one run: of all of it, or of some of its steps.
 pub(super) struct Recorder {
     stream: RecordingStream,
-    /// Times of the logged steps on every timeline.
-    steps: [TimeColumn; 3],
+    /// The logged steps on every timeline.
+    steps: [Vec<i64>; 3],
     /// Engine step (s), and duration of the skill (s).
     step_s: f64,
     duration_s: f64,
+    /// Whether another recorder has begun what this one goes on with.
+    continues: bool,
 }
 
 impl Recorder {
@@ -31,15 +33,28 @@ impl Recorder {
         stream.set_log_time_enabled(false);
         stream.set_log_tick_enabled(false);
         let steps = [
-            TimeColumn::new_duration_nanos(SIM_TIME.name, records.iter().map(|r| nanoseconds(r.time_s))),
-            TimeColumn::new_sequence(STEP.name, records.iter().map(|r| r.step as i64)),
-            TimeColumn::new_sequence(PHASE.name, records.iter().map(|r| ten_thousandths(r.time_fraction))),
+            records.iter().map(|r| nanoseconds(r.time_s)).collect(),
+            records.iter().map(|r| r.step as i64).collect(),
+            records.iter().map(|r| ten_thousandths(r.time_fraction)).collect(),
         ];
-        Self { stream, steps, step_s, duration_s }
+        Self { stream, steps, step_s, duration_s, continues: false }
+    }
+
+    /// Goes on with what another recorder has begun: what holds at all times has been said.
+    pub(super) fn continues(self) -> Self {
+        Self { continues: true, ..self }
+    }
+
+    /// The first record that says something: one that goes on begins with the last record of the one before it, for what lies between.
+    pub(super) fn first(&self) -> usize {
+        usize::from(self.continues)
     }
 
     /// Logs what holds at all times.
     pub(super) fn always(&self, entity: impl Into<EntityPath>, what: &dyn AsComponents) -> Result<(), Fault> {
+        if self.continues {
+            return Ok(());
+        }
         Ok(self.stream.log_static(entity, what)?)
     }
 
@@ -52,13 +67,36 @@ impl Recorder {
         Ok(logged?)
     }
 
-    /// Logs one row per record.
+    /// Logs one row per record, from values for each of them.
     pub(super) fn every_step(
         &self,
         entity: impl Into<EntityPath>,
         columns: impl IntoIterator<Item = SerializedComponentColumn>,
     ) -> Result<(), Fault> {
-        Ok(self.stream.send_columns(entity, self.steps.clone(), columns)?)
+        let (first, records) = (self.first(), self.steps[0].len());
+        let said: Vec<usize> = (first..records).collect();
+        let cut = |column: SerializedComponentColumn| {
+            let list_array = column.list_array.slice(first, said.len());
+            SerializedComponentColumn { list_array, ..column }
+        };
+        self.at_steps(entity, &said, columns.into_iter().map(cut))
+    }
+
+    /// Logs one row for each of some records.
+    fn at_steps(
+        &self,
+        entity: impl Into<EntityPath>,
+        which: &[usize],
+        columns: impl IntoIterator<Item = SerializedComponentColumn>,
+    ) -> Result<(), Fault> {
+        let [times, steps, phases] = &self.steps;
+        let of = |values: &[i64]| which.iter().map(|i| values[*i]).collect::<Vec<i64>>();
+        let times = [
+            TimeColumn::new_duration_nanos(SIM_TIME.name, of(times)),
+            TimeColumn::new_sequence(STEP.name, of(steps)),
+            TimeColumn::new_sequence(PHASE.name, of(phases)),
+        ];
+        Ok(self.stream.send_columns(entity, times, columns)?)
     }
 
     /// Logs rows at `times_s` (s).
@@ -88,25 +126,16 @@ impl Recorder {
         Ok(self.stream.send_columns(entity, [times], columns)?)
     }
 
-    /// Logs a pose per record, or once if it never changes.
+    /// Logs poses, one of each record, when they change.
     pub(super) fn poses(&self, entity: EntityPath, poses: &[Isometry3<f64>]) -> Result<(), Fault> {
-        match poses {
-            [] => Ok(()),
-            [first, rest @ ..] if rest.iter().all(|pose| pose == first) => self.always(entity, &convert::transform(first)),
-            _ => {
-                let places = poses.iter().map(|pose| convert::vector(&pose.translation.vector));
-                let turns = poses.iter().map(|pose| convert::quaternion(&pose.rotation));
-                let columns = rerun::Transform3D::update_fields().with_many_translation(places).with_many_quaternion(turns);
-                self.every_step(entity, columns.columns_of_unit_batches()?)
-            }
+        let changed: Vec<usize> = (self.first()..poses.len()).filter(|i| *i == 0 || poses[*i] != poses[i - 1]).collect();
+        if changed.is_empty() {
+            return Ok(());
         }
-    }
-
-    /// Waits until everything is in the file and closes it.
-    pub(super) fn finish(self) -> Result<(), Fault> {
-        self.stream.flush_blocking()?;
-        drop(self.stream);
-        Ok(())
+        let places = changed.iter().map(|i| convert::vector(&poses[*i].translation.vector));
+        let turns = changed.iter().map(|i| convert::quaternion(&poses[*i].rotation));
+        let columns = rerun::Transform3D::update_fields().with_many_translation(places).with_many_quaternion(turns);
+        self.at_steps(entity, &changed, columns.columns_of_unit_batches()?)
     }
 }
 
@@ -139,9 +168,9 @@ mod tests {
         let folder = tempfile::TempDir::new()?;
         let path = folder.path().join("recording.rrd");
         let stream = rerun::RecordingStreamBuilder::new("cpdmp").save(&path)?;
-        let recorder = Recorder::new(stream, &[], 1e-3, 1.0);
-        recorder.always(EntityPath::from("entity"), &rerun::TextDocument::new("text"))?;
-        recorder.finish()?;
+        stream.log_static("entity", &rerun::TextDocument::new("text"))?;
+        stream.flush_blocking()?;
+        drop(stream);
         assert!(has_footer(&path)?);
         let whole = std::fs::read(&path)?;
         for kept in [0, 10, whole.len() / 2, whole.len() - 1] {

@@ -13,11 +13,13 @@ use crate::world::{Object, ObjectKind, ObjectPart, Parameters, PartShape, fixed_
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
     let support = support_height_m(&experiment.objects, &experiment.parameters);
     for (index, object) in experiment.objects.iter().enumerate() {
-        let mut poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.objects.get(index).copied()).collect();
-        if poses.len() != records.len() || poses.is_empty() {
-            poses = vec![object.pose(&experiment.parameters, support)];
+        let poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.objects.get(index).copied()).collect();
+        let entity = OBJECT.of(&[&object.name]);
+        if poses.len() == records.len() && !poses.is_empty() {
+            recorder.poses(entity, &poses)?;
+        } else {
+            recorder.always(entity, &convert::transform(&object.pose(&experiment.parameters, support)))?;
         }
-        recorder.poses(OBJECT.of(&[&object.name]), &poses)?;
         log_shapes(recorder, None, &OBJECT_SHAPE, object, &experiment.parameters)?;
         let pose = object.pose(&experiment.parameters, support);
         log_fixed(recorder, None, (&OBJECT, &OBJECT_SHAPE), object, &pose)?;

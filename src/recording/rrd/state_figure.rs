@@ -24,19 +24,12 @@ const LABEL_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(0.0, 0.6, 0.3);
 /// Points of half an ellipse.
 pub(super) const POINTS: usize = 41;
 
-/// Logs the states of the skill in the setting of `experiment`; a skill without states logs none. `middle` is that of the way of the tool.
-pub(super) fn log_states(
-    recorder: &Recorder,
-    experiment: &Experiment,
-    outcome: &RunOutcome,
-    duration_s: f64,
-    middle: Vector3<f64>,
-) -> Result<(), Fault> {
+/// Logs the states of the skill in the setting of `experiment`; a skill without states logs none.
+pub(super) fn log_states(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome, duration_s: f64) -> Result<(), Fault> {
     let states = states(experiment, outcome, duration_s)?;
     let Some(plan) = Plan::new(&outcome.plan, duration_s).filter(|_| !states.is_empty()) else { return Ok(()) };
     let all: Vec<usize> = (0..states.len()).collect();
     recorder.always(STATES.path(), &ellipsoids(&states, &all).with_line_radii([Radius::new_ui_points(0.7)]))?;
-    log_active(recorder, &states, &outcome.steps, middle)?;
     for (index, state) in states.iter().enumerate() {
         for axis in 0..3 {
             log_ellipse(recorder, index, state, axis, &plan)?;
@@ -45,15 +38,21 @@ pub(super) fn log_states(
     Ok(())
 }
 
-/// The active state, logged when it changes.
-fn log_active(recorder: &Recorder, states: &[State], records: &[StepRecord], middle: Vector3<f64>) -> Result<(), Fault> {
-    let mut changes: Vec<(f64, usize)> = Vec::new();
-    for record in records.iter().filter(|record| record.state < states.len()) {
-        if changes.last().is_none_or(|(_, state)| *state != record.state) {
-            changes.push((record.time_s, record.state));
-        }
+/// Logs the active state of some records when it changes. `middle` is that of the way of the tool.
+pub(super) fn log_active(
+    recorder: &Recorder,
+    experiment: &Experiment,
+    outcome: &RunOutcome,
+    records: &[StepRecord],
+    (duration_s, middle): (f64, Vector3<f64>),
+) -> Result<(), Fault> {
+    let states = &states(experiment, outcome, duration_s)?;
+    if states.is_empty() {
+        return Ok(());
     }
-    let (times, active): (Vec<f64>, Vec<usize>) = changes.into_iter().unzip();
+    let known = |i: &usize| records[*i].state < states.len() && (*i == 0 || records[*i].state != records[i - 1].state);
+    let changes = (recorder.first()..records.len()).filter(known).map(|i| (records[i].time_s, records[i].state));
+    let (times, active): (Vec<f64>, Vec<usize>) = changes.unzip();
     recorder.at_times(ACTIVE_STATE.path(), &times, ellipsoids(states, &active).columns_of_unit_batches()?)?;
     let label = |i: &usize| format!("state {i}: {}", beta_in_words(states[*i].beta));
     let labels = Points3D::update_fields()

@@ -5,7 +5,7 @@ use nalgebra::{DVector, Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vect
 use super::paths::COLUMNS;
 use super::recorder::Fault;
 use crate::demonstration::Trajectory;
-use crate::learning::{TaskSpaceState, task_space_states};
+use crate::learning::{Skill, TaskSpaceState, task_space_states};
 use crate::simulation::{Experiment, RunOutcome};
 
 /// A state in task space.
@@ -23,20 +23,27 @@ pub(super) struct State {
     pub beta: f64,
 }
 
+/// `beta` of each state as the experiment couples it; none for a skill without states.
+pub(super) fn betas(experiment: &Experiment, skill: &Skill) -> Result<Vec<f64>, Fault> {
+    let learned = &skill.compliance.beta[..skill.motion.states().min(skill.compliance.beta.len())];
+    Ok(experiment.execution.coupling.beta(learned)?)
+}
+
 /// The states of the skill in the setting of `experiment`; none for a skill without states or without a place.
 pub(super) fn states(experiment: &Experiment, outcome: &RunOutcome, duration_s: f64) -> Result<Vec<State>, Fault> {
     let motion = &outcome.skill.motion;
     let columns = COLUMNS.map(|name| motion.columns.iter().position(|column| column == name));
     let [Some(x), Some(y), Some(z)] = columns else { return Ok(Vec::new()) };
     let place = [x, y, z];
-    let state = |found: &TaskSpaceState| State {
+    let betas = betas(experiment, &outcome.skill)?;
+    let state = |(found, beta): (&TaskSpaceState, f64)| State {
         time_s: found.u * duration_s,
         time_deviation_s: found.u_deviation * duration_s,
         place: Vector3::from(place.map(|column| found.position[column])),
         spread: Matrix3::from_fn(|i, j| found.between[(place[i], place[j])]),
-        beta: found.beta,
+        beta,
     };
-    Ok(task_space_states(&outcome.skill, &experiment.question())?.iter().map(state).collect())
+    Ok(task_space_states(&outcome.skill, &experiment.question())?.iter().zip(betas).map(state).collect())
 }
 
 impl State {

@@ -15,20 +15,20 @@ use super::recorder::{Fault, Recorder};
 use super::robot_figure;
 use super::scene_figure;
 use crate::robot::RobotModel;
-use crate::simulation::{Experiment, LessonLook, LessonRecord, RunOutcome};
+use crate::simulation::{Experiment, LessonLook, LessonRecord};
 use crate::world::support_height_m;
 
 /// Time between two lessons on the timeline (s).
 const PAUSE_S: f64 = 1.0;
 
 /// Logs every lesson; nothing when the demonstrations were not taught in this run.
-pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), Fault> {
-    if outcome.lessons.is_empty() {
+pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, robot: &RobotModel, lessons: &[LessonRecord]) -> Result<(), Fault> {
+    if lessons.is_empty() {
         return Ok(());
     }
     recorder.always(TEACHING.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
     let mut film = Film::default();
-    for lesson in &outcome.lessons {
+    for lesson in lessons {
         let start_s = film.append(lesson);
         for object in &experiment.objects {
             let when = Some((TEACHING_TIME, start_s));
@@ -37,7 +37,7 @@ pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, outcome:
             scene_figure::log_fixed(recorder, when, (&TEACHING_OBJECT, &TEACHING_OBJECT_SHAPE), object, &pose)?;
         }
     }
-    film.log_bodies(recorder, &outcome.robot)?;
+    film.log_bodies(recorder, robot)?;
     for (index, object) in experiment.objects.iter().enumerate() {
         film.log_poses(recorder, TEACHING_OBJECT.of(&[&object.name]), |look| look.objects.get(index).copied())?;
     }

@@ -1,0 +1,102 @@
+//! What a recording tells, chapter by chapter: all at once when the run is over, or one after the other while it happens.
+
+use nalgebra::Vector3;
+use rerun::blueprint::components::PlayState;
+use rerun::{RecordingStream, ViewCoordinates};
+
+use super::entity_path::WORLD;
+use super::paths::COLUMNS;
+use super::recorder::{Fault, Recorder};
+use super::{
+    blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, paths, replay_figure, robot_figure,
+    scene_figure, spread_figure, state_figure, task_states, teaching_figure,
+};
+use crate::robot::{RobotModel, Shape};
+use crate::simulation::{Experiment, LessonRecord, RunOutcome};
+
+/// The application that the viewer keeps the layout for.
+pub(super) const APPLICATION: &str = "cpdmp";
+
+/// One recording.
+pub(super) struct Chapters<'a> {
+    pub stream: RecordingStream,
+    pub experiment: &'a Experiment,
+    /// The middle of the way of the tool (m, world).
+    pub middle: Vector3<f64>,
+    /// How long the execution of the skill takes (s).
+    pub duration_s: f64,
+}
+
+impl Chapters<'_> {
+    /// The layout that the recording opens with; with a page for the lessons when there are some.
+    pub fn layout(&self, robot: &RobotModel, taught: bool, play: PlayState) -> Result<(), Fault> {
+        let (blueprint, properties) = layout::layout(self.middle, floor_m(robot), taught, play)?;
+        blueprint_property::send(&self.stream, APPLICATION, &blueprint, &properties)
+    }
+
+    /// How the demonstrations were taught.
+    pub fn lessons(&self, robot: &RobotModel, lessons: &[LessonRecord]) -> Result<(), Fault> {
+        teaching_figure::log_lessons(&self.recorder(&[]), self.experiment, robot, lessons)
+    }
+
+    /// What is known before the execution: demonstrations, their replays, skill and plan.
+    pub fn skill(&self, outcome: &RunOutcome) -> Result<(), Fault> {
+        let recorder = self.recorder(&[]);
+        recorder.always(WORLD.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+        guide::log_guide(&recorder, self.experiment, outcome)?;
+        replay_figure::log_replays(&recorder, &outcome.dataset)?;
+        paths::log_known(&recorder, outcome, self.duration_s)?;
+        state_figure::log_states(&recorder, self.experiment, outcome, self.duration_s)?;
+        forcing_figure::log_forcing(&recorder, self.experiment, outcome, self.duration_s)
+    }
+
+    /// The steps of the execution from number `from` on.
+    pub fn execution(&self, outcome: &RunOutcome, from: usize) -> Result<(), Fault> {
+        // What changes from one step to the next needs both.
+        let records = &outcome.steps[from.saturating_sub(1)..];
+        let recorder = if from == 0 { self.recorder(records) } else { self.recorder(records).continues() };
+        robot_figure::log_robot(&recorder, &outcome.robot, records)?;
+        scene_figure::log_objects(&recorder, self.experiment, records)?;
+        paths::log_executed(&recorder, records)?;
+        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.middle))?;
+        force_figure::log_forces(&recorder, records, outcome.skill.force.is_some())?;
+        lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
+        spread_figure::log_spread(&recorder, &outcome.skill, records)?;
+        events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
+    }
+
+    /// What is known when it is over.
+    pub fn end(&self, outcome: &RunOutcome) -> Result<(), Fault> {
+        contact_figure::log_contacts(&self.recorder(&[]), outcome)
+    }
+
+    fn recorder(&self, records: &[crate::simulation::StepRecord]) -> Recorder {
+        Recorder::new(self.stream.clone(), records, self.experiment.physics.step_s, self.duration_s)
+    }
+}
+
+/// The middle of a box around some places (m); the origin without places.
+pub(super) fn middle(places: impl IntoIterator<Item = Vector3<f64>>) -> Vector3<f64> {
+    let mut places = places.into_iter();
+    let Some(first) = places.next() else { return Vector3::zeros() };
+    let (low, high) = places.fold((first, first), |(low, high), place| (low.inf(&place), high.sup(&place)));
+    (low + high) / 2.0
+}
+
+/// The middle of the way that is planned (m).
+pub(super) fn middle_of_plan(outcome: &RunOutcome) -> Vector3<f64> {
+    let [Some(x), Some(y), Some(z)] = COLUMNS.map(|name| outcome.plan.column(name)) else { return Vector3::zeros() };
+    middle((0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i])))
+}
+
+/// Height of the floor: the lowest point of the robot's fixed body (m), at most the height of its base.
+fn floor_m(robot: &RobotModel) -> f64 {
+    let reach = |shape: &Shape| match shape {
+        Shape::Box { half_extents } => half_extents.z,
+        Shape::Sphere { radius } => *radius,
+        Shape::Cylinder { half_length, .. } => *half_length,
+        Shape::Mesh { vertices, .. } => vertices.iter().map(|vertex| -vertex[2]).fold(0.0, f64::max),
+    };
+    let fixed = robot.bodies.first().map_or(&[][..], |body| &body.visuals);
+    fixed.iter().map(|visual| visual.body_from_geometry.translation.z - reach(&visual.shape)).fold(0.0, f64::min)
+}

@@ -1,0 +1,58 @@
+//! A run that is killed: what it had recorded can be opened, and its place is free for the next one.
+#![cfg(feature = "rerun")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use rerun::external::re_log_encoding::DecoderApp;
+
+use super::{Folder, GOOD};
+
+/// Kills a run as soon as its recording has that many bytes.
+fn killed_at(folder: &Folder, recording: &Path, bytes: u64) {
+    let program = Command::new(env!("CARGO_BIN_EXE_cpdmp"))
+        .current_dir(folder.path())
+        .args(["run", "a.toml", "-q"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    let mut child = program.expect("it starts");
+    let started = Instant::now();
+    while fs::metadata(recording).map_or(0, |file| file.len()) < bytes {
+        assert!(started.elapsed() < Duration::from_secs(120), "the recording does not grow");
+        assert_eq!(child.try_wait().expect("it is there"), None, "the run is over before its recording has {bytes} bytes");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("killed");
+    child.wait().expect("it ends");
+}
+
+#[test]
+fn a_run_that_is_killed_leaves_a_recording_that_opens() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let recording = folder.path().join("runs/.good-0.partial/recording.partial.rrd");
+    let mut before = 0;
+    for bytes in [20_000, 100_000, 300_000] {
+        killed_at(&folder, &recording, bytes);
+        let file = std::io::BufReader::new(fs::File::open(&recording).expect("it is there"));
+        let messages = DecoderApp::decode_lazy(file).take_while(Result::is_ok).count();
+        assert!(messages > before, "{messages} messages in {bytes} bytes, {before} in fewer");
+        before = messages;
+    }
+    let said = folder.call(&["run", "a.toml"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(!recording.exists());
+    assert!(!folder.path().join("runs/good-0/recording.partial.rrd").exists());
+}
+
+/// What was simulated before a run had to stop is to be seen.
+#[test]
+fn a_run_that_stops_early_leaves_what_it_has_recorded() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let said = folder.call(&["run", "a.toml", "--timeout", "0.01"]);
+    assert_eq!(said.code, Some(12), "{}", said.stderr);
+    let file = fs::File::open(folder.path().join("runs/good-0/recording.rrd")).expect("it is there");
+    assert!(DecoderApp::decode_lazy(std::io::BufReader::new(file)).all(|message| message.is_ok()));
+}
