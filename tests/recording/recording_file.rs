@@ -12,8 +12,8 @@ use rerun::log::Chunk;
 use tempfile::TempDir;
 
 use super::documented::assert_documented;
-use super::made_up_run::{CLOSED, COMPLIES, HOLDS, experiment, outcome, outcome_of_the_baseline};
-use super::read_rrd::{chunks, messages, rows, texts};
+use super::made_up_run::{CLOSED, COMPLIES, HOLDS, outcome, outcome_of_the_baseline};
+use super::read_rrd::{chunks, experiment, messages, rows, texts};
 
 fn written(outcome: &RunOutcome) -> (TempDir, PathBuf) {
     let folder = TempDir::new().expect("a folder can be made");
