@@ -5,9 +5,6 @@ use super::{Fault, GRIPPER_COLUMN, QUATERNION_COLUMNS, Trajectory};
 /// How far a quaternion's norm may be from 1 (-): rounding of a recorder that writes three digits.
 const QUATERNION_NORM_TOLERANCE: f64 = 1e-2;
 
-/// The largest magnitude of a value (in its own unit): squares and their sums stay finite.
-const LARGEST: f64 = 1e100;
-
 impl Trajectory {
     /// Everything wrong with the table, rows counted from `first_row`.
     pub(super) fn faults(&self, place: &str, first_row: usize) -> Vec<Fault> {
@@ -73,9 +70,6 @@ impl Trajectory {
                 let fault = |expected| Fault::new(place, format!("{value}"), expected).at_row(first_row + t).in_column(name);
                 if !value.is_finite() {
                     faults.push(fault("a finite number"));
-                } else if value.abs() > LARGEST {
-                    let expected = "a magnitude below 1e100, so that it can be squared";
-                    faults.push(Fault::new(place, format!("{value:e}"), expected).at_row(first_row + t).in_column(name));
                 } else if gripper == Some(i) && !(0.0..=1.0).contains(&value) {
                     faults.push(fault("an opening between 0 (closed) and 1 (open)"));
                 }

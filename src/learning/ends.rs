@@ -34,15 +34,18 @@ pub(super) struct Ends {
     pub(super) report: Option<EndsReport>,
 }
 
-/// The maps for the parameters' source. Given parameters: both ends by regression (constant when `blind`). Parameters that *are* the start,
+/// The maps for the parameters' source. Given parameters: both ends by the rule `given`. Parameters that *are* the start,
 /// the goal or their difference: that identity holds exactly, and the end they leave open is the mean or a regression, whichever predicts
 /// the demonstrations better when they are left out.
-pub(super) fn ends(dataset: &Dataset, prepared: &[Prepared], parameters: &ParameterSpace, blind: bool) -> Result<Ends, LearningError> {
+pub(super) fn ends(dataset: &Dataset, prepared: &[Prepared], parameters: &ParameterSpace, given: EndRule) -> Result<Ends, LearningError> {
     let thetas: Vec<DVector<f64>> = prepared.iter().map(|p| parameters.features.at(&p.theta_m)).collect();
     let starts: Vec<DVector<f64>> = prepared.iter().map(|p| p.start.clone()).collect();
     let goals: Vec<DVector<f64>> = prepared.iter().map(|p| p.goal.clone()).collect();
     if dataset.parameter_source == ParameterSource::Given {
-        let map = |values: &[DVector<f64>]| if blind { Ok(constant(values, thetas[0].len())) } else { LinearMap::fit(&thetas, values) };
+        let map = |values: &[DVector<f64>]| match given {
+            EndRule::Mean => Ok(constant(values, thetas[0].len())),
+            EndRule::Regression => LinearMap::fit(&thetas, values),
+        };
         return Ok(Ends { start: map(&starts)?, goal: map(&goals)?, report: None });
     }
     if matches!(parameters.features, FeatureMap::Rbf { .. }) {

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::automatic::{filled_in, force_features, motion_features, seen_force, seen_motion, thetas};
 use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
-use super::ends::{Ends, EndsReport, ends};
+use super::ends::{EndRule, Ends, EndsReport, ends};
 use super::orientation::OrientationSample;
 use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit, refine};
 use super::prepare::{Prepared, prepare};
@@ -172,7 +172,8 @@ fn motion_model(
 ) -> Result<(MotionModel, Option<EndsReport>), LearningError> {
     let features = motion_features(prepared, settings, seed);
     let parameters = ParameterSpace::of(dataset.parameters_m(), &thetas(prepared, |p| &p.theta_m)).with_features(features);
-    let Ends { start, goal, report } = ends(dataset, prepared, &parameters, settings.shaping == ShapingKind::Lwr)?;
+    let given = if settings.shaping == ShapingKind::Lwr { settings.lwr_ends } else { EndRule::Regression };
+    let Ends { start, goal, report } = ends(dataset, prepared, &parameters, given)?;
     let model = MotionModel {
         stiffness: settings.stiffness,
         duration_s: prepared.iter().map(|p| p.duration_s).sum::<f64>() / prepared.len() as f64,

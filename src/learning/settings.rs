@@ -4,7 +4,7 @@ use super::cpdmp::ComplianceSettings;
 use super::dmp::{DEFAULT_ALPHA, PhaseInput};
 use super::phmm::PhmmSettings;
 use super::selection::{Selection, StatesSearch};
-use super::{LearningError, SettingFault};
+use super::{EndRule, LearningError, SettingFault};
 
 /// What stands for the forcing term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +42,9 @@ pub struct LearningSettings {
     pub force: PhmmSettings,
     /// Basis functions of the baseline (2 to 1000). Default 100, as in the paper's code.
     pub lwr_basis: usize,
+    /// Start and goal of the baseline where parameters are given, and do not say them: the mean over the demonstrations, or the regression
+    /// on the parameters, as if somebody told them to it. Default the mean.
+    pub lwr_ends: EndRule,
     /// Which states comply.
     pub compliance: ComplianceSettings,
     /// Basis functions of the orientation over the time fraction (2 to 500). Default 40.
@@ -68,6 +71,7 @@ impl Default for LearningSettings {
             motion: PhmmSettings::default(),
             force: PhmmSettings { states: 10, ..PhmmSettings::default() },
             lwr_basis: 100,
+            lwr_ends: EndRule::Mean,
             compliance: ComplianceSettings::default(),
             orientation_basis: 40,
             align: false,

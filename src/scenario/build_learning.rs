@@ -8,7 +8,7 @@ use crate::learning::cpdmp::{
 use crate::learning::dmp::PhaseInput;
 use crate::learning::phmm::{CovarianceMode, PhmmSettings, Topology};
 use crate::learning::selection::{Selection, StatesCriterion, StatesSearch};
-use crate::learning::{Features, LearningSettings, ShapingKind};
+use crate::learning::{EndRule, Features, LearningSettings, ShapingKind};
 
 /// How the skill is learned.
 pub(super) fn learning(table: &Node) -> LearningSettings {
@@ -25,6 +25,7 @@ pub(super) fn learning(table: &Node) -> LearningSettings {
         motion: hidden_markov_model(&table.section("motion"), &defaults.motion),
         force: hidden_markov_model(&table.section("force"), &defaults.force),
         lwr_basis: table.size("lwr_basis"),
+        lwr_ends: if table.text("lwr_ends") == "regression" { EndRule::Regression } else { EndRule::Mean },
         compliance: compliance(&table.section("compliance")),
         orientation_basis: table.size("orientation_basis"),
         align: table.flag("align"),

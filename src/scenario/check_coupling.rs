@@ -50,7 +50,8 @@ fn compliances(scenario: &Node, coupling: &Node, joints: usize, faults: &mut Vec
 fn betas(coupling: &Node, learning: &Node, faults: &mut Vec<Fault>) {
     let (Some(mode), Some(beta)) = (coupling.get("mode"), coupling.get("beta")) else { return };
     if mode.as_text() != Some("per_state") {
-        if is_typed(coupling, "beta") {
+        // An empty list says nothing: a resolved scenario has one.
+        if is_typed(coupling, "beta") && !beta.items().is_empty() {
             let message = format!("`coupling.beta` means nothing in the mode `{}`", mode.as_text().unwrap_or_default());
             faults.push(Fault::at(Code::Conflict, beta.origin, message).expected("mode = \"per_state\"").warning());
         }

@@ -9,7 +9,7 @@ const OF_ARMS: [&str; 10] =
     ["parameters", "demonstrations", "robot", "simulation", "object", "teaching", "coupling", "execution", "human", "allowed_contact"];
 
 /// Keys of the learning that planar experiments decide themselves.
-const DECIDED: [&str; 4] = ["theta_m", "theta_f", "space", "shaping"];
+const DECIDED: [&str; 5] = ["theta_m", "theta_f", "space", "shaping", "lwr_ends"];
 
 /// Keys of the learning about what movements in a plane do not have: forces, compliance to them, an orientation.
 const ABSENT: [&str; 3] = ["force", "compliance", "orientation_basis"];

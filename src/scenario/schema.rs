@@ -311,6 +311,12 @@ const LEARNING: Shape = Shape::plain(&[
     Key::new("smoothing_degree", Count(2, 6), "degree of the polynomials in that window").or(Preset::Count(4)),
     Key::new("gate_start", Number(within("", 0.5, 0.999)), "fraction of the duration from which the forcing fades out").or_number(0.94),
     Key::new("lwr_basis", Count(2, 1000), "basis functions of the baseline").or(Preset::Count(100)),
+    Key::new(
+        "lwr_ends",
+        Choice(&["mean", "regression"]),
+        "start and goal of the baseline: the mean of the demonstrations, or told to it, by a regression on theta_m",
+    )
+    .or(Preset::Text("mean")),
     Key::new("orientation_basis", Count(2, 500), "basis functions of the orientation").or(Preset::Count(40)),
     Key::new("align", Flag, "whether demonstrations are brought to one timing first, by one warp each for all columns")
         .or(Preset::Flag(false)),

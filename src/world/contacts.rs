@@ -105,9 +105,10 @@ impl ContactBook {
         episode.deepen(touch.time_s, &touch.gap);
     }
 
-    /// The episode of a pair, the robot's part first, then what moves.
+    /// The episode of a pair, the robot's part first, then what moves. Two parts of equal rank are told in either order, and are one pair.
     fn episode(&mut self, pair: (usize, usize), parts: &Parts, time_s: f64) -> &mut ContactEpisode {
-        let index = self.episodes.iter().position(|episode| episode.pair == pair).unwrap_or_else(|| {
+        let same = |known: (usize, usize)| known == pair || known == (pair.1, pair.0);
+        let index = self.episodes.iter().position(|episode| same(episode.pair)).unwrap_or_else(|| {
             let (a, b) = (parts.get(pair.0), parts.get(pair.1));
             let permission = permission(a, b);
             self.episodes.push(ContactEpisode {
@@ -161,5 +162,29 @@ fn permission(a: &Part, b: &Part) -> Option<Permission> {
         (Owner::Robot { finger: true, .. }, Owner::Object(_)) if b.handle => Some(Permission::Grasp(b.name.clone())),
         (Owner::Object(_), Owner::Object(_)) => Some(Permission::Objects),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rapier3d_f64::prelude::Vector;
+
+    use super::super::parts::Limb;
+    use super::*;
+
+    #[test]
+    fn a_pair_is_one_pair_in_either_order() {
+        let mut parts = Parts::default();
+        for (body, name) in ["torso", "left_lower_forearm"].into_iter().enumerate() {
+            let owner = Owner::Robot { body, finger: false, limb: if body == 0 { Limb::Fixed } else { Limb::Working } };
+            parts.add(Part { name: name.to_owned(), owner, handle: false });
+        }
+        let touch =
+            |parts, time_s, distance_m| Touch { parts, time_s, gap: Gap { distance_m, point_a: Vector::ZERO, point_b: Vector::ZERO } };
+        let mut book = ContactBook::default();
+        book.note(&touch((0, 1), 1.0, -0.001), &parts);
+        book.note(&touch((1, 0), 0.5, -0.002), &parts);
+        let [episode] = &book.episodes[..] else { panic!("{} pairs", book.episodes.len()) };
+        assert_eq!((episode.first_time_s, episode.last_time_s, episode.max_depth_m), (0.5, 1.0, 0.002));
     }
 }

@@ -203,11 +203,11 @@ fn one_demonstration_is_learned_and_its_limits_are_told() {
 }
 
 #[test]
-fn numbers_too_large_to_be_squared_are_refused_with_their_row() {
+fn numbers_too_large_to_be_squared_are_refused_with_their_sample() {
     let rows: String = (0..60).map(|i| format!("{},{}\n", i as f64 * 0.05, if i == 7 { "1e300" } else { "0.1" })).collect();
     let said = learn(&Folder::with(&[("strokes.csv", format!("time_s,x_m\n{rows}").as_bytes())]), &[]);
     assert_eq!((said.code, said.stdout.as_str()), (Some(3), ""), "{}", said.stderr);
-    assert!(said.stderr.contains("strokes.csv, row 9, column x_m: found 1e300"), "{}", said.stderr);
+    assert!(said.stderr.contains("strokes, column x_m: found 1e300 in sample 7, expected a magnitude up to 1e100"), "{}", said.stderr);
 }
 
 #[test]

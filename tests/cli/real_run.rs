@@ -69,6 +69,8 @@ fn a_run_tells_the_same_everywhere_and_can_be_repeated() {
     let resolved = folder.call(&["run", "runs/good-0/scenario.toml", "--out", "resolved", "--format", "json"]);
     assert_eq!(resolved.code, Some(0), "{}", resolved.stderr);
     assert_eq!(hash(&resolved), state_hash, "the resolved scenario is the scenario");
+    let validated = folder.call(&["validate", "runs/good-0/scenario.toml"]);
+    assert_eq!((validated.code, validated.stderr.as_str()), (Some(0), ""), "and no odder than it");
 
     let other = folder.call(&["run", "a.toml", "--format", "json", "--seed", "1"]);
     assert_ne!(hash(&other), state_hash, "another seed is another run");

@@ -3,6 +3,7 @@
 //! `CPDMP_FUZZ_CASES=250000 cargo test --release --test main -- faults::fuzz` runs a million cases, a quarter of them for each reader, instead
 //! of the few thousand of a plain test run; `CPDMP_FUZZ_SEED` (0 … 255) starts elsewhere. The cases are the same in every run.
 
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
@@ -138,18 +139,21 @@ fn feed(good: &[u8], read: impl Fn(&[u8]) -> bool) {
     let seed = [asked("CPDMP_FUZZ_SEED").unwrap_or(0) as u8; 32];
     let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &seed));
     let edits = prop::collection::vec(edit(), 1..6);
+    let (longest, most_bytes, taken) = (Cell::new(Duration::ZERO), Cell::new(0), Cell::new(0_u32));
     let result = runner.run(&edits, |edits| {
         let mut bytes = good.to_vec();
         edits.iter().for_each(|edit| edit.apply(&mut bytes));
         let timed = || {
             let started = Instant::now();
-            let memory = allocation_counter::measure(|| _ = read(&bytes));
+            let memory = allocation_counter::measure(|| taken.set(taken.get() + u32::from(read(&bytes))));
             (started.elapsed(), memory.bytes_max)
         };
         let (mut took, held) = timed();
         for _ in 0..2 {
             took = if took > LONGEST { timed().0 } else { took };
         }
+        longest.set(longest.get().max(took));
+        most_bytes.set(most_bytes.get().max(held));
         prop_assert!(took <= LONGEST, "{took:?} for {}", String::from_utf8_lossy(&bytes));
         prop_assert!(held <= MOST_BYTES, "{held} bytes for {}", String::from_utf8_lossy(&bytes));
         Ok(())
@@ -157,6 +161,8 @@ fn feed(good: &[u8], read: impl Fn(&[u8]) -> bool) {
     if let Err(found) = result {
         panic!("{found}");
     }
+    // Seen with `-- --nocapture`.
+    println!("{cases} cases, {} of them taken; the longest {:?}, the most memory {} bytes", taken.get(), longest.get(), most_bytes.get());
 }
 
 /// The path of a file with these bytes.

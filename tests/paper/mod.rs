@@ -4,6 +4,7 @@ mod cabinet_door;
 mod dataset_damage;
 mod dataset_import;
 mod execution_modes;
+mod learning_baseline;
 mod learning_coupling;
 mod learning_datasets;
 mod learning_execution;

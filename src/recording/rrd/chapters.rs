@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use rerun::blueprint::components::PlayState;
 use rerun::{RecordingStream, ViewCoordinates};
 
+use super::camera::Camera;
 use super::entity_path::WORLD;
 use super::paths::COLUMNS;
 use super::recorder::{Fault, Recorder};
@@ -30,7 +31,8 @@ pub(super) struct Chapters<'a> {
 impl Chapters<'_> {
     /// The layout that the recording opens with; with a page for the lessons when there are some.
     pub fn layout(&self, robot: &RobotModel, taught: bool, play: PlayState) -> Result<(), Fault> {
-        let (blueprint, properties) = layout::layout(self.middle, floor_m(robot), taught, play)?;
+        let camera = Camera::on(self.middle, &self.experiment.objects, &self.experiment.parameters);
+        let (blueprint, properties) = layout::layout(camera, floor_m(robot), taught, play)?;
         blueprint_property::send(&self.stream, APPLICATION, &blueprint, &properties)
     }
 

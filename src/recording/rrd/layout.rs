@@ -1,6 +1,5 @@
 //! The layout that a recording opens with: a page for the execution, one for the teaching, one for the replay.
 
-use nalgebra::Vector3;
 use rerun::blueprint::components::{BackgroundKind, Corner2D, LinkAxis, PanelState, PlayState};
 use rerun::blueprint::{
     Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, StateTimelineView, Tabs, TextDocumentView,
@@ -13,26 +12,21 @@ use rerun::external::re_sdk_types::blueprint::archetypes::{
 use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind, TimelineColumn};
 
 use super::blueprint_property::Properties;
+use super::camera::Camera;
 use super::convert;
 use super::entity_path::{EXECUTED_PATH, Entity, SIM_TIME, TEACHING_PATH, TIMELINES};
 use super::palette;
 use super::recorder::Fault;
 
-/// From the middle of the way of the tool to what the camera looks at (m): between the work and the robot, so that both are seen.
-const TARGET_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(-0.2, -0.01, 0.14);
-
-/// From there to the camera (m): in front of the robot, at its left, above the table.
-const EYE_FROM_TARGET_M: Vector3<f64> = Vector3::new(1.10, 0.69, 0.32);
-
 /// Titles stand where a legend cannot cover anything.
 const SCENE_TITLE: &str = "Execution: taught grey, planned blue, executed orange; states stiff green, complying purple; person vermilion";
 
-/// The layout with the properties of its views: one page for the execution, one for what came before it. `middle` is that of the way of the
-/// tool, `floor_m` the height of the floor (m, world).
-pub(super) fn layout(middle: Vector3<f64>, floor_m: f64, taught: bool, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
+/// The layout with the properties of its views: one page for the execution, one for what came before it. `floor_m` is the height of the
+/// floor (m, world).
+pub(super) fn layout(camera: Camera, floor_m: f64, taught: bool, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
     let mut views = Views::default();
-    let execution = execution(&mut views, middle + TARGET_FROM_MIDDLE_M, floor_m)?.with_name("Execution");
-    let teaching = teaching(&mut views, middle + TARGET_FROM_MIDDLE_M, floor_m)?.with_name("Teaching (timeline teaching_time)");
+    let execution = execution(&mut views, camera, floor_m)?.with_name("Execution");
+    let teaching = teaching(&mut views, camera, floor_m)?.with_name("Teaching (timeline teaching_time)");
     let replay = replay(&mut views)?.with_name("Replay (timeline replay_time)");
     let mut pages: Vec<ContainerLike> = vec![execution.into()];
     if taught {
@@ -47,8 +41,8 @@ pub(super) fn layout(middle: Vector3<f64>, floor_m: f64, taught: bool, play: Pla
 }
 
 /// The scene with the events at the left; motion, forces, compliance and lanes at the right.
-fn execution(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Horizontal, Fault> {
-    let scene = views.scene(SCENE_TITLE, "/world", &EXECUTED_PATH, target, floor_m)?;
+fn execution(views: &mut Views, camera: Camera, floor_m: f64) -> Result<Horizontal, Fault> {
+    let scene = views.scene(SCENE_TITLE, "/world", &EXECUTED_PATH, camera, floor_m)?;
     let lateral = views.plot("Motion x (m): taught grey, planned blue, executed orange", "plots/motion/x", None)?;
     let vertical = views.plot("Motion z (m): taught grey, planned blue, executed orange", "plots/motion/z", None)?;
     let legend = Some(Corner2D::RightTop);
@@ -78,8 +72,8 @@ fn execution(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Ho
 }
 
 /// The lessons: the scene at the left; motion, person and gripper at the right.
-fn teaching(views: &mut Views, target: Vector3<f64>, floor_m: f64) -> Result<Horizontal, Fault> {
-    let scene = views.scene("Teaching: a person (vermilion) leads the weightless arm", "/teaching", &TEACHING_PATH, target, floor_m)?;
+fn teaching(views: &mut Views, camera: Camera, floor_m: f64) -> Result<Horizontal, Fault> {
+    let scene = views.scene("Teaching: a person (vermilion) leads the weightless arm", "/teaching", &TEACHING_PATH, camera, floor_m)?;
     let right: [ContainerLike; 5] = [
         views.plot("Taught x (m)", "teaching_plots/motion/x", None)?.into(),
         views.plot("Taught z (m)", "teaching_plots/motion/z", None)?.into(),
@@ -109,12 +103,12 @@ struct Views {
 }
 
 impl Views {
-    /// A scene whose camera looks at `target`, and in which the whole of a growing path is seen.
-    fn scene(&mut self, title: &str, origin: &str, path: &Entity, target: Vector3<f64>, floor_m: f64) -> Result<View, Fault> {
+    /// A scene seen by the camera, in which the whole of a growing path is seen.
+    fn scene(&mut self, title: &str, origin: &str, path: &Entity, camera: Camera, floor_m: f64) -> Result<View, Fault> {
         let view = view(Spatial3DView::new(title).with_origin(origin))?;
         let eye = EyeControls3D::new()
-            .with_position(convert::vector(&(target + EYE_FROM_TARGET_M)))
-            .with_look_target(convert::vector(&target))
+            .with_position(convert::vector(&camera.eye))
+            .with_look_target(convert::vector(&camera.target))
             .with_eye_up([0.0, 0.0, 1.0]);
         self.properties.set(&view, "EyeControls3D", eye);
         self.properties.set(&view, "Background", Background::new(BackgroundKind::SolidColor).with_color(palette::BACKGROUND));

@@ -1,6 +1,7 @@
 //! The recording for the rerun viewer: the only place that knows rerun.
 
 mod blueprint_property;
+mod camera;
 mod chapters;
 mod contact_figure;
 mod convert;

@@ -1,0 +1,43 @@
+//! What can be seen from where: for pictures only, no controller looks.
+
+use nalgebra::Point3;
+use parry3d_f64::query::Ray;
+
+use super::scene::collider;
+use super::{Object, Parameters, convert, fixed_parts, object_parts, support_height_m};
+
+/// How many of `points` an object of a scene at its start hides from an eye at `from` (m, world). The robot hides nothing.
+#[must_use]
+pub fn hidden_count(objects: &[Object], parameters: &Parameters, from: &Point3<f64>, points: &[Point3<f64>]) -> usize {
+    let support = support_height_m(objects, parameters);
+    let shapes: Vec<_> = objects
+        .iter()
+        .flat_map(|object| {
+            let pose = convert::pose(&object.pose(parameters, support));
+            let parts = object_parts(object, parameters).into_iter().chain(fixed_parts(object));
+            parts.map(move |part| (pose, collider(&part).build()))
+        })
+        .collect();
+    let hides = |point: &Point3<f64>| {
+        let ray = Ray::new(convert::vector(&from.coords), convert::vector(&(point - from)));
+        shapes.iter().any(|(pose, part)| part.shape().intersects_ray(&(*pose * *part.position()), &ray, 1.0))
+    };
+    points.iter().filter(|point| hides(point)).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Vector2, Vector3};
+
+    use super::*;
+    use crate::world::{ObjectKind, Quantity};
+
+    #[test]
+    fn what_is_behind_a_table_top_is_hidden_and_what_is_above_is_not() {
+        let kind = ObjectKind::Table { top_height_m: 0.5, size_m: Vector2::new(1.0, 1.0), friction: Quantity::Value(0.5) };
+        let table = Object::new("table", Vector2::zeros(), kind);
+        let eye = Point3::new(0.0, 0.0, 2.0);
+        let points = [0.7, 0.3].map(|z| Point3::from(Vector3::new(0.1, 0.1, z)));
+        assert_eq!(hidden_count(&[table], &Parameters::default(), &eye, &points), 1);
+    }
+}
