@@ -111,7 +111,7 @@ fn runs_without_states_or_steps_are_recorded_too() {
 #[test]
 fn a_recording_that_cannot_be_written_names_the_file() {
     let error = write_recording(Path::new("/nowhere/recording.rrd"), &experiment(), &outcome()).unwrap_err();
-    assert!(matches!(error, RecordingError::Rerun { .. }) && error.to_string().contains("/nowhere/recording.rrd"), "{error}");
+    assert!(matches!(error, RecordingError::Io { .. }) && error.to_string().contains("/nowhere/recording.rrd"), "{error}");
     if cfg!(target_os = "linux") {
         let error = write_recording(Path::new("/dev/full"), &experiment(), &outcome()).expect_err("the disk is full");
         assert!(error.to_string().contains("/dev/full"), "{error}");
