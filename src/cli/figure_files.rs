@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::figure::{ArmRun, Figure, arm_compliance, arm_forcing, arm_motion, arm_paths, arm_states, svg};
+use crate::figure::{ArmRun, Figure, arm_compliance, arm_forcing, arm_motion, arm_paths, arm_settings, arm_states, svg};
 use crate::learning::LearningError;
 use crate::report::{OutputError, write_file};
 use crate::simulation::{Experiment, RunOutcome};
@@ -15,6 +15,7 @@ pub(super) type Named = (&'static str, Figure);
 pub(super) fn of_arm(run: &ArmRun) -> Result<Vec<Named>, LearningError> {
     let mut figures = vec![("motion.svg", arm_motion(run)), ("compliance.svg", arm_compliance(run)), ("forcing.svg", arm_forcing(run)?)];
     figures.extend(arm_paths(run).map(|figure| ("paths.svg", figure)));
+    figures.extend(arm_settings(run)?.map(|figure| ("forcing_settings.svg", figure)));
     figures.extend(arm_states(run)?.map(|figure| ("states.svg", figure)));
     Ok(figures)
 }
@@ -22,7 +23,8 @@ pub(super) fn of_arm(run: &ArmRun) -> Result<Vec<Named>, LearningError> {
 /// The run that was just carried out, for drawing.
 pub(super) fn arm_run<'a>(experiment: &'a Experiment, left: &'a RunOutcome) -> Result<ArmRun<'a>, LearningError> {
     let learned = (&left.skill, &left.dataset, &experiment.learning);
-    ArmRun::new(title(&experiment.name, experiment.seed), &left.steps, learned, experiment.question())
+    let run = ArmRun::new(title(&experiment.name, experiment.seed), &left.steps, learned, experiment.question())?;
+    Ok(run.in_scene(&experiment.objects, &experiment.parameters))
 }
 
 /// What the figures of a run are called.

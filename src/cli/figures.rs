@@ -68,7 +68,8 @@ fn stored_arm(folder: &Path, experiment: &Experiment) -> Result<Vec<Named>, Fail
     let dataset = Dataset::read(&place).map_err(|error| Failure::of_data(&place, &error))?;
     let learned = (&skill, &dataset, &experiment.learning);
     let run = ArmRun::new(title(&experiment.name, experiment.seed), &steps, learned, experiment.question());
-    run.and_then(|run| of_arm(&run)).map_err(|error| Failure::of_learning(&path, &error))
+    run.and_then(|run| of_arm(&run.in_scene(&experiment.objects, &experiment.parameters)))
+        .map_err(|error| Failure::of_learning(&path, &error))
 }
 
 /// A planar experiment takes seconds, and its scenario decides every bit of it.

@@ -1,4 +1,4 @@
-//! The tool's paths in space, from above and from the side, with the ellipses of the states.
+//! The tool's paths in space, from above and from the side, with the ellipses of the states (the paper's Fig. 6b).
 
 use nalgebra::Matrix2;
 
@@ -39,6 +39,8 @@ pub fn arm_paths(run: &ArmRun) -> Option<Figure> {
         let executed: Curve = run.steps.iter().map(|step| axes.map(|axis| step.tool.translation.vector[axis])).collect();
         let start = executed.first().copied();
         chart.marks.push(Mark::line("executed", EXECUTED, 1.6, executed));
+        let arcs = run.arcs.iter().map(|arc| arc.iter().map(|place| axes.map(|axis| place[axis])).collect());
+        chart.marks.extend(arcs.map(|arc| Mark::dashes("arc of the handle about its hinge", BLACK, 0.8, arc)));
         chart.marks.push(Mark::symbols("start", BLACK, Symbol::Ring, 3.0, start.into_iter().collect()));
         chart
     };

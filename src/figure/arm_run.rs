@@ -1,17 +1,21 @@
 //! What the figures of an arm's run are drawn from.
 
-use nalgebra::DVector;
+use nalgebra::{DVector, Point3};
 
 use crate::demonstration::{Dataset, Trajectory};
 use crate::learning::{ExecutionSettings, LearningError, LearningSettings, Skill, TaskSpaceState, generate, task_space_states};
 use crate::palette::Rgb;
 use crate::palette::meaning::{COMPLIES, MINIMISES, STIFF};
 use crate::simulation::{StepRecord, skill_duration_s};
+use crate::world::{Object, ObjectKind, Parameters, door_turn, support_height_m};
 
 use super::mark::Mark;
 
 /// Samples of a taught or planned movement that are drawn.
 const DRAWN_SAMPLES: usize = 400;
+
+/// Points of an arc.
+const ARC_POINTS: usize = 61;
 
 /// Ellipses are drawn at this many standard deviations: 95 % of a Gaussian in one dimension.
 pub(super) const DEVIATIONS: f64 = 2.0;
@@ -37,6 +41,8 @@ pub struct ArmRun<'a> {
     plan: Trajectory,
     /// Its states in the setting; none for the baseline.
     pub(super) states: Vec<TaskSpaceState>,
+    /// Ways on which doors of the scene lead their handles in use (m, world).
+    pub(super) arcs: Vec<Vec<Point3<f64>>>,
 }
 
 /// A movement along one axis: times (s) and values.
@@ -57,7 +63,14 @@ impl<'a> ArmRun<'a> {
         let plan = generate(skill, &question, asked_s / DRAWN_SAMPLES as f64, 1.0)?;
         let states = task_space_states(skill, &question)?;
         let duration_s = skill_duration_s(steps).unwrap_or_else(|| plan.duration_s());
-        Ok(Self { name, steps, skill, dataset, learning, question, duration_s, plan, states })
+        Ok(Self { name, steps, skill, dataset, learning, question, duration_s, plan, states, arcs: Vec::new() })
+    }
+
+    /// The same in a scene of `objects`, of which a figure shows where its doors lead.
+    #[must_use]
+    pub fn in_scene(mut self, objects: &[Object], parameters: &Parameters) -> Self {
+        self.arcs = objects.iter().filter_map(|object| handle_arc(object, objects, parameters)).collect();
+        self
     }
 
     /// The plan along a column; nothing when the skill does not move it.
@@ -93,6 +106,15 @@ impl<'a> ArmRun<'a> {
             .filter_map(|window| Some([window.first()?.time_s, window.last()?.time_s]))
             .map(|ends| Mark::band("the arm complies", COMPLIES, 0.13, ends))
     }
+}
+
+/// The arc of a cabinet's handle in use about the hinge, from the closed door to the open one (m, world).
+fn handle_arc(object: &Object, objects: &[Object], parameters: &Parameters) -> Option<Vec<Point3<f64>>> {
+    let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
+    let hinge = object.pose(parameters, support_height_m(objects, parameters));
+    let handle = cabinet.handle(hinge.translation.y, parameters);
+    let opening = |k: usize| cabinet.opening_max_rad * k as f64 / (ARC_POINTS - 1) as f64;
+    Some((0..ARC_POINTS).map(|k| hinge * (door_turn(opening(k)) * handle)).collect())
 }
 
 /// The colour of a state, and what the legend calls it.

@@ -10,7 +10,7 @@ use crate::demonstration::Dataset;
 use crate::learning::cpdmp::ForceCoupling;
 use crate::learning::{ShapingKind, wrench_columns};
 use crate::math;
-use crate::world::{Object, ObjectKind, Parameters};
+use crate::world::{Object, ObjectKind, Parameters, WorldError};
 
 impl Setup {
     /// Checks everything that needs no simulation: the way of every lesson and of the execution can be gone, nothing starts inside something
@@ -89,8 +89,10 @@ impl Setup {
         let mut variation = math::stream(self.experiment.seed, "human", number);
         let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
         let start = self.can_go(plan, &path, whose)?;
-        self.world(parameters, &start, false)?;
-        Ok(())
+        match self.world(parameters, &start, false) {
+            Err(SimulationError::World(overlap @ WorldError::Overlap { .. })) => Err(SimulationError::Scene(format!("{whose}: {overlap}"))),
+            built => built.map(|_| ()),
+        }
     }
 
     /// Everything that can fall lies on a table: there is no floor. Handles are on their doors.

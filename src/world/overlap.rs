@@ -17,7 +17,7 @@ const START_OVERLAP_M: f64 = 1e-4;
 pub(super) fn refuse(engine: &PhysicsWorld, parts: &Parts) -> Result<(), WorldError> {
     let all: Vec<(&Collider, &Part)> =
         engine.colliders.iter().filter_map(|(_, collider)| Some((collider, parts.of(collider.user_data)?.1))).collect();
-    let mut pairs = Vec::new();
+    let mut pairs: Vec<(&str, &str, f64)> = Vec::new();
     for (i, (a, part_a)) in all.iter().enumerate() {
         for (b, part_b) in &all[i + 1..] {
             // Links that overlap the torso by construction never touch it; everything else must not start inside anything.
@@ -26,12 +26,21 @@ pub(super) fn refuse(engine: &PhysicsWorld, parts: &Parts) -> Result<(), WorldEr
                 continue;
             }
             let depth = depth(a, b);
-            if depth > START_OVERLAP_M {
-                pairs.push(format!("`{}` is {:.1} mm inside `{}`", part_a.name, depth * 1e3, part_b.name));
+            if depth <= START_OVERLAP_M {
+                continue;
+            }
+            // A part may have several shapes: the deepest one is told.
+            match pairs.iter_mut().find(|(a, b, _)| (*a, *b) == (&part_a.name, &part_b.name)) {
+                Some((_, _, deepest)) => *deepest = deepest.max(depth),
+                None => pairs.push((&part_a.name, &part_b.name, depth)),
             }
         }
     }
-    if pairs.is_empty() { Ok(()) } else { Err(WorldError::Overlap { pairs: pairs.join(", ") }) }
+    if pairs.is_empty() {
+        return Ok(());
+    }
+    let told: Vec<String> = pairs.iter().map(|(a, b, depth)| format!("`{a}` is {:.1} mm inside `{b}`", depth * 1e3)).collect();
+    Err(WorldError::Overlap { pairs: told.join(", ") })
 }
 
 /// Whether the parts belong to one limb or one object.

@@ -107,7 +107,7 @@ fn figures_are_drawn_again_from_the_folder_alone() {
     }
 }
 
-const FIGURES: [&str; 5] = ["compliance.svg", "forcing.svg", "motion.svg", "paths.svg", "states.svg"];
+const FIGURES: [&str; 6] = ["compliance.svg", "forcing.svg", "forcing_settings.svg", "motion.svg", "paths.svg", "states.svg"];
 
 #[test]
 fn a_recorded_dataset_stands_for_the_teaching() {

@@ -1,8 +1,13 @@
 //! Contract: the figures of an arm's run say what the records and the skill say: lines are the records, ellipses are the model's Gaussians,
 //! bars are its statistic, bands are the moments of compliance.
 
-use cpdmp::figure::{ArmRun, Chart, Figure, Mark, Shape, arm_compliance, arm_forcing, arm_motion, arm_paths, arm_states, svg};
+use std::path::Path;
+
+use cpdmp::figure::{
+    ArmRun, Chart, Figure, Mark, Shape, arm_compliance, arm_forcing, arm_motion, arm_paths, arm_settings, arm_states, svg,
+};
 use cpdmp::learning::{ExecutionSettings, LearningSettings};
+use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::RunOutcome;
 use nalgebra::{Matrix2, Vector2};
 
@@ -37,11 +42,14 @@ fn line<'a>(chart: &'a Chart, legend: &str) -> &'a [[f64; 2]] {
 }
 
 fn outlines<'a>(chart: &'a Chart, legend: &str) -> Vec<&'a [[f64; 2]]> {
-    let outline = |mark: &&'a Mark| match &mark.shape {
-        Shape::Area { outline, .. } => &outline[..],
+    marks(chart, legend).into_iter().map(outline).collect()
+}
+
+fn outline(mark: &Mark) -> &[[f64; 2]] {
+    match &mark.shape {
+        Shape::Area { outline, .. } => outline,
         other => panic!("no outline: {other:?}"),
-    };
-    marks(chart, legend).iter().map(outline).collect()
+    }
 }
 
 #[test]
@@ -106,6 +114,63 @@ fn ellipses_over_the_phase_are_the_gaussians_of_the_model() {
     }
 }
 
+/// Every taught setting has its line, by the model's own forcing, and the ellipses of its states around the means of that setting.
+#[test]
+fn taught_settings_have_a_line_and_their_states_each() {
+    let parts = Parts::of(outcome());
+    let figure = arm_settings(&parts.run()).expect("drawn").expect("several settings");
+    let (motion, lessons) = (&parts.outcome.skill.motion, &parts.outcome.dataset.demonstrations);
+    let phmm = motion.phmm().expect("states");
+    let mut heights: Vec<f64> = lessons.iter().map(|lesson| lesson.theta_m[0].1).collect();
+    heights.dedup();
+    assert!(heights.len() > 1);
+    for (j, panel) in figure.panels.iter().enumerate() {
+        let area = |mark: &'_ Mark| matches!(mark.shape, Shape::Area { .. });
+        let outlines: Vec<&[[f64; 2]]> = panel.marks.iter().filter(|mark| area(mark)).map(outline).collect();
+        assert_eq!(outlines.len(), heights.len() * phmm.states());
+        for height in &heights {
+            let theta = motion.parameters.resolve(&[("block_height_m".into(), *height)]).expect("known");
+            let mut shaping = motion.shaping_at(&theta).expect("a model");
+            let points = line(panel, &format!("block_height_m = {height}"));
+            for (i, point) in points.iter().enumerate() {
+                let mut forcing = vec![0.0; motion.columns.len()];
+                shaping.forcing(i as f64 / (points.len() - 1) as f64, &mut forcing);
+                assert_eq!(point[1].to_bits(), forcing[j].to_bits());
+            }
+            let phi = motion.parameters.features.at(&theta);
+            for state in 0..phmm.states() {
+                let mean = phmm.mean_at(state, &phi);
+                // The middle of an ellipse is the mean of its points.
+                let middle = |outline: &&[[f64; 2]]| {
+                    let sum = outline.iter().fold(Vector2::zeros(), |sum, point| sum + Vector2::from(*point));
+                    (sum / outline.len() as f64 - Vector2::new(mean[0], mean[j + 1])).norm() < 1e-6
+                };
+                assert!(outlines.iter().any(middle), "state {state} at {height} m");
+            }
+        }
+    }
+}
+
+/// Contract: a door's arc lies at the handle's distance about its hinge, and is drawn from above in true place.
+#[test]
+fn the_arc_of_a_door_is_a_circle_about_its_hinge() {
+    let parts = Parts::of(outcome());
+    let scenario = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/cabinet_door.toml");
+    let options = LoadOptions { set: vec!["parameters.handle_y_m=0.35".into()], ..LoadOptions::default() };
+    let Work::Arm(experiment) = Scenario::load(&scenario, &options).expect("shipped").work else { panic!("no arm") };
+    let (objects, parameters) = (&experiment.objects, &experiment.parameters);
+    let (hinge, first) = (Vector2::new(0.88, 0.65), Vector2::new(0.84, 0.35));
+    let figure = arm_paths(&parts.run().in_scene(objects, parameters)).expect("a path");
+    let arc = line(&figure.panels[0], "arc of the handle about its hinge");
+    for point in arc {
+        assert!(((Vector2::from(*point) - hinge).norm() - 0.3_f64.hypot(0.04)).abs() < 1e-12);
+    }
+    assert!((Vector2::from(arc[0]) - first).norm() < 1e-12);
+    let turn = (Vector2::from(arc[0]) - hinge).angle(&(Vector2::from(arc[arc.len() - 1]) - hinge));
+    assert!((turn - 1.2).abs() < 1e-9, "{turn} rad");
+    assert!(marks(&arm_paths(&parts.run()).expect("a path").panels[0], "arc of the handle about its hinge").is_empty());
+}
+
 #[test]
 fn every_figure_can_be_drawn_also_for_a_skill_without_states() {
     for (outcome, states) in [(outcome(), 5), (outcome_of_the_baseline(), 0)] {
@@ -113,8 +178,9 @@ fn every_figure_can_be_drawn_also_for_a_skill_without_states() {
         let run = parts.run();
         let mut figures: Vec<Figure> = vec![arm_motion(&run), arm_compliance(&run), arm_forcing(&run).expect("drawn")];
         figures.extend(arm_paths(&run));
+        figures.extend(arm_settings(&run).expect("drawn"));
         figures.extend(arm_states(&run).expect("drawn"));
-        assert_eq!(figures.len(), if states > 0 { 5 } else { 4 });
+        assert_eq!(figures.len(), if states > 0 { 6 } else { 5 });
         for figure in figures {
             assert!(svg(&figure).is_ok_and(|text| text.contains("made up, seed 1")), "{}", figure.title);
         }
