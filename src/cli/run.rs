@@ -68,10 +68,9 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
         }
         return run.report.outcome;
     }
-    let written = files::write(&mut run, &ready.scenario, &folder, started);
     #[cfg(feature = "rerun")]
     grown.settle(run.left.is_some());
-    let written = written.and_then(|()| folder.finish());
+    let written = files::write(&mut run, &ready.scenario, &folder, started).and_then(|()| folder.finish());
     drop(progress);
     match terminal.format {
         Format::Human => terminal.result(&text(&run.report)),

@@ -55,11 +55,11 @@ def main(program: str, scenario: str, times: int) -> int:
             alive = killed(program, scenario, folder, after_s)
             found = sorted(folder.glob(".run.partial/*.rrd")) if alive else [folder / "run/recording.rrd"]
             if not found:
-                print(f"{number}: killed after {after_s:.2f} s: nothing was recorded yet")
+                print(f"{number}: killed after {after_s:.2f} s: nothing was recorded yet", flush=True)
             for recording in found:
                 fault = accepted(recording, folder / "mended.rrd")
                 wrong += bool(fault)
-                print(f"{number}: {'killed' if alive else 'over'} after {after_s:.2f} s: {recording.name}, {recording.stat().st_size} bytes: {fault or 'accepted'}")
+                print(f"{number}: {'killed' if alive else 'over'} after {after_s:.2f} s: {recording.name}, {recording.stat().st_size} bytes: {fault or 'accepted'}", flush=True)
     return int(wrong > 0)
 
 

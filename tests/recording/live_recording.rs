@@ -13,8 +13,8 @@ use rerun::EntityPath;
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::log::Chunk;
 
-use super::made_up_run::{STEPS, experiment, outcome};
-use super::read_rrd::{chunks, rows, texts};
+use super::made_up_run::{STEPS, outcome};
+use super::read_rrd::{chunks, experiment, rows, texts};
 
 /// Longer than any machine needs for the recording.
 const PATIENCE: Duration = Duration::from_secs(60);

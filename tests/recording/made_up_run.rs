@@ -5,8 +5,7 @@ use std::sync::LazyLock;
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::learning::phmm::PhmmSettings;
 use cpdmp::learning::{ExecutionSettings, LearningSettings, ShapingKind, generate, learn};
-use cpdmp::scenario::{LoadOptions, Scenario, Work};
-use cpdmp::simulation::{AppliedForce, Experiment, FinalObject, LessonLook, LessonRecord, RunOutcome, StepRecord};
+use cpdmp::simulation::{AppliedForce, FinalObject, LessonLook, LessonRecord, RunOutcome, StepRecord};
 use cpdmp::world::{Clearance, Parameters};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3, Vector6};
 
@@ -42,14 +41,6 @@ pub fn learning_settings() -> LearningSettings {
 /// What the skill was asked.
 pub fn question() -> ExecutionSettings {
     ExecutionSettings { theta_m: vec![("block_height_m".into(), 0.235)], ..ExecutionSettings::default() }
-}
-
-/// The shipped experiment, whose run it could be.
-pub fn experiment() -> Experiment {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/pick_and_place.toml");
-    let scenario = Scenario::load(&path, &LoadOptions::default()).expect("the shipped scenario is valid");
-    let Work::Arm(experiment) = scenario.work else { panic!("no arm") };
-    *experiment
 }
 
 fn learned(shaping: ShapingKind) -> RunOutcome {

@@ -1,14 +1,24 @@
-//! Reads recordings with rerun's own decoder.
+//! Reads recordings with rerun's own decoder, and has the experiment that they are of.
 
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use cpdmp::recording::entity_path::Entity;
+use cpdmp::scenario::{LoadOptions, Scenario, Work};
+use cpdmp::simulation::Experiment;
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
 use rerun::log::Chunk;
 use rerun::{ComponentDescriptor, EntityPath};
+
+/// The shipped experiment, of which the made-up run could be one.
+pub fn experiment() -> Experiment {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/pick_and_place.toml");
+    let scenario = Scenario::load(&path, &LoadOptions::default()).expect("the shipped scenario is valid");
+    let Work::Arm(experiment) = scenario.work else { panic!("no arm") };
+    *experiment
+}
 
 /// Everything in a recording.
 pub fn messages(path: &Path) -> Vec<LogMsg> {

@@ -12,8 +12,8 @@ use rerun::log::Chunk;
 use tempfile::TempDir;
 
 use super::documented::assert_documented;
-use super::made_up_run::{CLOSED, COMPLIES, HOLDS, experiment, outcome, outcome_of_the_baseline};
-use super::read_rrd::{chunks, messages, rows, texts};
+use super::made_up_run::{CLOSED, COMPLIES, HOLDS, outcome, outcome_of_the_baseline};
+use super::read_rrd::{chunks, experiment, messages, rows, texts};
 
 fn written(outcome: &RunOutcome) -> (TempDir, PathBuf) {
     let folder = TempDir::new().expect("a folder can be made");
@@ -111,7 +111,7 @@ fn runs_without_states_or_steps_are_recorded_too() {
 #[test]
 fn a_recording_that_cannot_be_written_names_the_file() {
     let error = write_recording(Path::new("/nowhere/recording.rrd"), &experiment(), &outcome()).unwrap_err();
-    assert!(matches!(error, RecordingError::Rerun { .. }) && error.to_string().contains("/nowhere/recording.rrd"), "{error}");
+    assert!(matches!(error, RecordingError::Io { .. }) && error.to_string().contains("/nowhere/recording.rrd"), "{error}");
     if cfg!(target_os = "linux") {
         let error = write_recording(Path::new("/dev/full"), &experiment(), &outcome()).expect_err("the disk is full");
         assert!(error.to_string().contains("/dev/full"), "{error}");

@@ -6,7 +6,7 @@ use rerun::RecordingStreamBuilder;
 use rerun::blueprint::components::PlayState;
 
 use super::chapters::{APPLICATION, Chapters, middle};
-use super::recorder::{Fault, has_footer};
+use super::recorder::Fault;
 use crate::recording::RecordingError;
 use crate::simulation::{Experiment, RunOutcome, skill_duration_s};
 
@@ -15,18 +15,15 @@ use crate::simulation::{Experiment, RunOutcome, skill_duration_s};
 /// # Errors
 /// When the file cannot be created or written to its end.
 pub fn write_recording(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), RecordingError> {
-    write(path, experiment, outcome).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
-    match has_footer(path) {
-        Ok(true) => Ok(()),
-        Ok(false) => Err(RecordingError::Incomplete { path: path.to_owned() }),
-        Err(source) => Err(RecordingError::Io { path: path.to_owned(), source }),
-    }
+    let recorded = record(experiment, outcome).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
+    std::fs::write(path, recorded).map_err(|source| RecordingError::Io { path: path.to_owned(), source })
 }
 
-fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), Fault> {
+/// The content of the file. It is made in memory: on a full disk rerun's own writer of files may wait for ever.
+fn record(experiment: &Experiment, outcome: &RunOutcome) -> Result<Vec<u8>, Fault> {
     // Equal identities are shown as one recording: runs that differ must not share one.
     let identity = format!("{}-{}-{:016x}", experiment.name, experiment.seed, outcome.state_hash);
-    let stream = RecordingStreamBuilder::new(APPLICATION).recording_id(identity).save(path)?;
+    let (stream, storage) = RecordingStreamBuilder::new(APPLICATION).recording_id(identity).memory()?;
     if !stream.is_enabled() {
         return Err("rerun is switched off by the environment variable RERUN; unset it, or do without a recording".into());
     }
@@ -43,7 +40,7 @@ fn write(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(
     chapters.execution(outcome, 0)?;
     chapters.end(outcome)?;
     stream.flush_blocking()?;
-    Ok(())
+    Ok(storage.drain_as_bytes()?)
 }
 
 /// What the viewer calls a recording.
