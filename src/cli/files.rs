@@ -13,18 +13,19 @@ use crate::simulation::{Experiment, RunOutcome};
 /// The hashes that a repetition is held against.
 pub(super) const STATE_LOG: &str = "state_hashes.parquet";
 
-/// Writes everything into the folder. A recording that cannot be written is told in the report, which is written all the same.
-pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<(), OutputError> {
-    if let Some(left) = &run.left {
-        let failures = recordings(left, scenario, folder.staging());
-        if !failures.is_empty() {
-            run.report.end_as(run.report.outcome.max(Outcome::OutputFailed));
-            run.report.warnings.extend(failures.into_iter().map(|failure| format!("not written: {failure}")));
-        }
+/// Writes everything into the folder. What cannot be written of a recording is returned, and told in the report, which is written all the
+/// same.
+pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<Vec<String>, OutputError> {
+    let failures = run.left.as_ref().map(|left| recordings(left, scenario, folder.staging())).unwrap_or_default();
+    let lost: Vec<String> = failures.into_iter().map(|failure| format!("not written: {failure}")).collect();
+    if !lost.is_empty() {
+        run.report.end_as(run.report.outcome.max(Outcome::OutputFailed));
+        run.report.warnings.extend(lost.iter().cloned());
     }
     folder.write("scenario.toml", &scenario.resolved)?;
     folder.write("manifest.json", &manifest(run, scenario, started).to_json())?;
-    folder.write("report.json", &run.report.to_json())
+    folder.write("report.json", &run.report.to_json())?;
+    Ok(lost)
 }
 
 /// What can only be written after a whole run. Returns what could not be written.

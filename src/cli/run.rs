@@ -70,15 +70,17 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     }
     #[cfg(feature = "rerun")]
     grown.settle(run.left.is_some());
-    let written = files::write(&mut run, &ready.scenario, &folder, started).and_then(|()| folder.finish());
+    let warnings = run.report.warnings.clone();
+    let written = files::write(&mut run, &ready.scenario, &folder, started).and_then(|lost| Ok((folder.finish()?, lost)));
     drop(progress);
     match terminal.format {
         Format::Human => terminal.result(&text(&run.report)),
         Format::Json => terminal.result(&(run.report.to_json_line() + "\n")),
     }
-    tell_warnings(&run.report.warnings, global, terminal);
+    tell_warnings(&warnings, global, terminal);
     match written {
-        Ok(place) => {
+        Ok((place, lost)) => {
+            lost.iter().for_each(|what| terminal.error(&format!("error: {what}\n")));
             terminal.note(&format!("written to {}\n", place.display()));
             if let Some(Err(message)) = viewer.map(|viewer| viewer.show(&place.join("recording.rrd"))) {
                 terminal.note(&format!("{message}\n"));

@@ -56,3 +56,20 @@ fn a_run_that_stops_early_leaves_what_it_has_recorded() {
     let file = fs::File::open(folder.path().join("runs/good-0/recording.rrd")).expect("it is there");
     assert!(DecoderApp::decode_lazy(std::io::BufReader::new(file)).all(|message| message.is_ok()));
 }
+
+/// Contract: where files may not grow as large as a recording, it is named, and everything else is there.
+#[test]
+fn a_recording_that_finds_no_room_is_named_and_the_rest_stays() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    // Without the trap the signal would end the program before it sees an error.
+    let limited = format!("trap '' XFSZ; ulimit -f 1000; exec '{}' run a.toml -q", env!("CARGO_BIN_EXE_cpdmp"));
+    let said = Command::new("sh").args(["-c", &limited]).current_dir(folder.path()).output().expect("it runs");
+    let stderr = String::from_utf8_lossy(&said.stderr);
+    assert_eq!(said.status.code(), Some(20), "{stderr}");
+    assert!(stderr.contains("error: not written: ") && stderr.contains("recording.rrd"), "{stderr}");
+    let run = folder.path().join("runs/good-0");
+    assert!(!run.join("recording.rrd").exists());
+    for kept in ["report.json", "steps.parquet", "skill.json", "scenario.toml", "manifest.json"] {
+        assert!(run.join(kept).is_file(), "{kept}");
+    }
+}
