@@ -57,12 +57,7 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
     }
     #[cfg(feature = "rerun")]
     if plan.rrd {
-        let path = folder.join("recording.rrd");
-        if let Err(error) = recording::write_recording(&path, experiment, left) {
-            // On a disk that is full, half a recording would take the place of the report.
-            _ = std::fs::remove_file(&path);
-            failures.push(error.to_string());
-        }
+        failures.extend(recording::write_recording(&folder.join("recording.rrd"), experiment, left).err().map(|error| error.to_string()));
     }
     failures
 }

@@ -37,10 +37,4 @@ pub enum RecordingError {
         /// What the writer said.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// The file ends before its footer.
-    #[error("{}: the recording is not complete: its footer is missing; is the disk full?", path.display())]
-    Incomplete {
-        /// The file.
-        path: PathBuf,
-    },
 }

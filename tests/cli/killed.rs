@@ -61,15 +61,18 @@ fn a_run_that_stops_early_leaves_what_it_has_recorded() {
 #[test]
 fn a_recording_that_finds_no_room_is_named_and_the_rest_stays() {
     let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
-    // Without the trap the signal would end the program before it sees an error.
-    let limited = format!("trap '' XFSZ; ulimit -f 1000; exec '{}' run a.toml -q", env!("CARGO_BIN_EXE_cpdmp"));
-    let said = Command::new("sh").args(["-c", &limited]).current_dir(folder.path()).output().expect("it runs");
-    let stderr = String::from_utf8_lossy(&said.stderr);
-    assert_eq!(said.status.code(), Some(20), "{stderr}");
-    assert!(stderr.contains("error: not written: ") && stderr.contains("recording.rrd"), "{stderr}");
-    let run = folder.path().join("runs/good-0");
-    assert!(!run.join("recording.rrd").exists());
-    for kept in ["report.json", "steps.parquet", "skill.json", "scenario.toml", "manifest.json"] {
-        assert!(run.join(kept).is_file(), "{kept}");
+    let planar = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/obstacle_avoidance.toml");
+    for (scenario, blocks, steps) in [("a.toml", 1000, "steps.parquet"), (planar, 600, "paths.parquet")] {
+        // Without the trap the signal would end the program before it sees an error.
+        let run = format!("trap '' XFSZ; ulimit -f {blocks}; exec '{}' run '{scenario}' -q --out run", env!("CARGO_BIN_EXE_cpdmp"));
+        let said = Command::new("sh").args(["-c", &run]).current_dir(folder.path()).output().expect("it runs");
+        let stderr = String::from_utf8_lossy(&said.stderr);
+        assert_eq!(said.status.code(), Some(20), "{scenario}: {stderr}");
+        assert!(stderr.contains("error: not written: ") && stderr.contains("recording.rrd"), "{scenario}: {stderr}");
+        let run = folder.path().join("run");
+        assert!(!run.join("recording.rrd").exists());
+        for kept in ["report.json", "scenario.toml", "manifest.json", steps] {
+            assert!(run.join(kept).is_file(), "{scenario}: {kept}");
+        }
     }
 }

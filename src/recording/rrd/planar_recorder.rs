@@ -32,13 +32,6 @@ impl PlanarRecorder {
         let times = TimeColumn::new_sequence(PHASE_INPUT.name, inputs.iter().map(|input| ticks(*input)));
         Ok(self.stream.send_columns(entity, [times], columns)?)
     }
-
-    /// Waits until everything is in the file and closes it.
-    pub(super) fn finish(self) -> Result<(), Fault> {
-        self.stream.flush_blocking()?;
-        drop(self.stream);
-        Ok(())
-    }
 }
 
 /// A phase input (-) on the timeline.

@@ -5,7 +5,8 @@ use std::path::Path;
 use rerun::RecordingStreamBuilder;
 
 use super::planar_recorder::PlanarRecorder;
-use super::recorder::{Fault, has_footer};
+use super::recorder::Fault;
+use super::write::save;
 use super::{blueprint_property, planar_forcing, planar_graph, planar_guide, planar_layout, planar_map};
 use crate::planar::PlanarOutcome;
 use crate::recording::RecordingError;
@@ -18,28 +19,26 @@ const APPLICATION: &str = "cpdmp-planar";
 /// # Errors
 /// When the file cannot be created or written to its end.
 pub fn write_planar_recording(path: &Path, name: &str, seed: u64, outcome: &PlanarOutcome) -> Result<(), RecordingError> {
-    write(path, name, seed, outcome).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
-    match has_footer(path) {
-        Ok(true) => Ok(()),
-        Ok(false) => Err(RecordingError::Incomplete { path: path.to_owned() }),
-        Err(source) => Err(RecordingError::Io { path: path.to_owned(), source }),
-    }
+    let recorded = record(name, seed, outcome).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
+    save(path, &recorded)
 }
 
-fn write(path: &Path, name: &str, seed: u64, outcome: &PlanarOutcome) -> Result<(), Fault> {
-    let stream = RecordingStreamBuilder::new(APPLICATION).save(path)?;
+/// The content of the file.
+fn record(name: &str, seed: u64, outcome: &PlanarOutcome) -> Result<Vec<u8>, Fault> {
+    let (stream, storage) = RecordingStreamBuilder::new(APPLICATION).memory()?;
     if !stream.is_enabled() {
         return Err("rerun is switched off by the environment variable RERUN; unset it, or do without a recording".into());
     }
     stream.send_recording_name(format!("{name}, seed {seed}"))?;
     let (blueprint, properties) = planar_layout::layout(outcome)?;
     blueprint_property::send(&stream, APPLICATION, &blueprint, &properties)?;
-    let recorder = PlanarRecorder::new(stream);
+    let recorder = PlanarRecorder::new(stream.clone());
     planar_map::log_map(&recorder, outcome)?;
     planar_forcing::log_forcing(&recorder, outcome)?;
     if let Some(transitions) = &outcome.transitions {
         planar_graph::log_graph(&recorder, transitions)?;
     }
     planar_guide::log_guide(&recorder, name, seed, outcome)?;
-    recorder.finish()
+    stream.flush_blocking()?;
+    Ok(storage.drain_as_bytes()?)
 }

@@ -1,11 +1,6 @@
 //! The stream into a recording file: everything is sent in columns, so the file is small and its content does not depend on any clock.
 
-use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
-use std::path::Path;
-
 use nalgebra::Isometry3;
-use rerun::external::re_log_encoding::{Decodable, StreamFooter};
 use rerun::{AsComponents, EntityPath, RecordingStream, SerializedComponentColumn, TimeColumn};
 
 use super::convert;
@@ -139,44 +134,10 @@ impl Recorder {
     }
 }
 
-/// Whether a recording ends with the footer that says where everything is; without it the file was cut off.
-pub(super) fn has_footer(path: &Path) -> Result<bool, std::io::Error> {
-    let mut file = File::open(path)?;
-    if file.metadata()?.len() < StreamFooter::ENCODED_SIZE_BYTES as u64 {
-        return Ok(false);
-    }
-    file.seek(SeekFrom::End(-(StreamFooter::ENCODED_SIZE_BYTES as i64)))?;
-    let mut end = Vec::with_capacity(StreamFooter::ENCODED_SIZE_BYTES);
-    file.read_to_end(&mut end)?;
-    Ok(StreamFooter::from_rrd_bytes(&end).is_ok_and(|footer| !footer.entries.is_empty()))
-}
-
 fn nanoseconds(time_s: f64) -> i64 {
     (time_s * 1e9).round() as i64
 }
 
 fn ten_thousandths(fraction: f64) -> i64 {
     (fraction * 1e4).round() as i64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_file_that_is_cut_off_has_no_footer() -> Result<(), Fault> {
-        let folder = tempfile::TempDir::new()?;
-        let path = folder.path().join("recording.rrd");
-        let stream = rerun::RecordingStreamBuilder::new("cpdmp").save(&path)?;
-        stream.log_static("entity", &rerun::TextDocument::new("text"))?;
-        stream.flush_blocking()?;
-        drop(stream);
-        assert!(has_footer(&path)?);
-        let whole = std::fs::read(&path)?;
-        for kept in [0, 10, whole.len() / 2, whole.len() - 1] {
-            std::fs::write(&path, &whole[..kept])?;
-            assert!(!has_footer(&path)?, "{kept} of {} bytes", whole.len());
-        }
-        Ok(())
-    }
 }

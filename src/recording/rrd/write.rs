@@ -16,7 +16,17 @@ use crate::simulation::{Experiment, RunOutcome, skill_duration_s};
 /// When the file cannot be created or written to its end.
 pub fn write_recording(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), RecordingError> {
     let recorded = record(experiment, outcome).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
-    std::fs::write(path, recorded).map_err(|source| RecordingError::Io { path: path.to_owned(), source })
+    save(path, &recorded)
+}
+
+/// Writes a file that is whole or not there: on a full disk half a recording would take the place of the report.
+pub(super) fn save(path: &Path, recorded: &[u8]) -> Result<(), RecordingError> {
+    std::fs::write(path, recorded).map_err(|source| {
+        if path.is_file() {
+            _ = std::fs::remove_file(path);
+        }
+        RecordingError::Io { path: path.to_owned(), source }
+    })
 }
 
 /// The content of the file. It is made in memory: on a full disk rerun's own writer of files may wait for ever.
