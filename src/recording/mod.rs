@@ -14,6 +14,7 @@ mod step_columns;
 mod step_log;
 mod step_reader;
 mod step_table;
+mod table_file;
 
 pub use error::RecordingError;
 pub use path_log::{LoggedPath, PATH_COLUMNS, PATH_LOG_VERSION, write_path_log};

@@ -3,19 +3,14 @@
 use std::fs::File;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::sync::Arc;
 
-use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
 use parquet::file::reader::SerializedFileReader;
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::record::{Row, RowAccessor};
-use parquet::schema::types::Type;
 
 use super::RecordingError;
+use super::table_file::{self, Kind, write_next};
 use crate::simulation::WorldTrace;
 use crate::world::StateTrace;
 
@@ -57,64 +52,27 @@ pub fn read_state_log(path: &Path) -> Result<Vec<WorldTrace>, RecordingError> {
 }
 
 fn write(file: File, traces: &[WorldTrace]) -> Result<(), ParquetError> {
-    let mut writer = SerializedFileWriter::new(file, schema()?, Arc::new(properties()))?;
+    let kind = |name: &str| if matches!(name, "phase" | "body") { Kind::Text } else { Kind::Integer };
+    let mut writer = table_file::open(file, "state", STATE_LOG_VERSION, &STATE_COLUMNS.map(|(name, meaning)| (name, meaning, kind(name))))?;
     for world in traces {
         let trace = &world.trace;
         let bodies = trace.bodies.len();
         let rows = trace.steps.len() * bodies;
         let of_steps = |value: &dyn Fn(usize) -> i64| (0..rows).map(|row| value(row / bodies)).collect::<Vec<_>>();
+        let names: Vec<ByteArray> = (0..rows).map(|row| ByteArray::from(trace.bodies[row % bodies].as_str())).collect();
         let mut group = writer.next_row_group()?;
-        texts(&mut group, (0..rows).map(|_| world.phase.as_str()))?;
-        numbers(&mut group, &vec![world.number as i64; rows])?;
-        numbers(&mut group, &of_steps(&|index| trace.steps[index] as i64))?;
-        numbers(&mut group, &of_steps(&|index| trace.hashes[index] as i64))?;
-        texts(&mut group, (0..rows).map(|row| trace.bodies[row % bodies].as_str()))?;
+        write_next::<ByteArrayType>(&mut group, &vec![ByteArray::from(world.phase.as_str()); rows])?;
+        write_next::<Int64Type>(&mut group, &vec![world.number as i64; rows])?;
+        write_next::<Int64Type>(&mut group, &of_steps(&|index| trace.steps[index] as i64))?;
+        write_next::<Int64Type>(&mut group, &of_steps(&|index| trace.hashes[index] as i64))?;
+        write_next::<ByteArrayType>(&mut group, &names)?;
         for quantity in 0..4 {
-            numbers(&mut group, &trace.quantities.iter().map(|hashes| i64::from(hashes[quantity])).collect::<Vec<_>>())?;
+            write_next::<Int64Type>(&mut group, &trace.quantities.iter().map(|hashes| i64::from(hashes[quantity])).collect::<Vec<_>>())?;
         }
         group.close()?;
     }
     writer.close()?;
     Ok(())
-}
-
-fn schema() -> Result<Arc<Type>, ParquetError> {
-    let field = |(name, _): &(&str, &str)| {
-        let text = matches!(*name, "phase" | "body");
-        let physical = if text { Physical::BYTE_ARRAY } else { Physical::INT64 };
-        let logical = text.then_some(LogicalType::String);
-        let builder = Type::primitive_type_builder(name, physical).with_repetition(Repetition::REQUIRED).with_logical_type(logical);
-        Ok(Arc::new(builder.build()?))
-    };
-    let fields = STATE_COLUMNS.iter().map(field).collect::<Result<_, ParquetError>>()?;
-    Ok(Arc::new(Type::group_type_builder("state").with_fields(fields).build()?))
-}
-
-fn properties() -> WriterProperties {
-    let entry = |key: String, value: &str| KeyValue::new(key, value.to_owned());
-    let mut keys = vec![entry("cpdmp.format".into(), "state-log"), entry("cpdmp.version".into(), &STATE_LOG_VERSION.to_string())];
-    keys.extend(STATE_COLUMNS.iter().map(|(name, meaning)| entry(format!("column.{name}"), meaning)));
-    WriterProperties::builder()
-        .set_created_by(format!("cpdmp {}", env!("CARGO_PKG_VERSION")))
-        .set_compression(Compression::SNAPPY)
-        .set_key_value_metadata(Some(keys))
-        .build()
-}
-
-fn texts<'a>(group: &mut SerializedRowGroupWriter<'_, File>, words: impl Iterator<Item = &'a str>) -> Result<(), ParquetError> {
-    let mut column = group.next_column()?.ok_or_else(too_few_columns)?;
-    column.typed::<ByteArrayType>().write_batch(&words.map(ByteArray::from).collect::<Vec<_>>(), None, None)?;
-    column.close()
-}
-
-fn numbers(group: &mut SerializedRowGroupWriter<'_, File>, values: &[i64]) -> Result<(), ParquetError> {
-    let mut column = group.next_column()?.ok_or_else(too_few_columns)?;
-    column.typed::<Int64Type>().write_batch(values, None, None)?;
-    column.close()
-}
-
-fn too_few_columns() -> ParquetError {
-    ParquetError::General("the schema has fewer columns than a state".to_owned())
 }
 
 fn read(file: File) -> Result<Vec<WorldTrace>, ParquetError> {
