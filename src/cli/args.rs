@@ -122,6 +122,15 @@ pub(super) struct Replay {
     /// Begin with this phase: what comes before it is taken from the folder, as the run left it
     #[arg(long, value_enum, value_name = "PHASE")]
     pub from: Option<Phase>,
+    /// Take the execution up at the last snapshot that the run made up to this time of it (s)
+    #[arg(long, value_name = "SECONDS", value_parser = time_s, conflicts_with = "from")]
+    pub from_time: Option<f64>,
+}
+
+/// A time that is not negative (s).
+fn time_s(text: &str) -> Result<f64, String> {
+    let time: Option<f64> = text.parse().ok().filter(|time: &f64| *time >= 0.0 && time.is_finite());
+    time.ok_or_else(|| "seconds since the execution began, such as 12.5".to_owned())
 }
 
 /// A phase that a run can be taken up with.

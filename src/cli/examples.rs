@@ -35,6 +35,7 @@ pub(super) const REPLAY: &str = "\
 Examples:
   cpdmp replay runs/pick_and_place-0
   cpdmp replay runs/pick_and_place-0 --from execute
+  cpdmp replay runs/pick_and_place-0 --from-time 20
   cpdmp replay runs/pick_and_place-0 --set object.toy.friction=0.5";
 
 pub(super) const FIGURES: &str = "\

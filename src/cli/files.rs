@@ -13,6 +13,9 @@ use crate::simulation::{Experiment, RunOutcome};
 /// The hashes that a repetition is held against.
 pub(super) const STATE_LOG: &str = "state_hashes.parquet";
 
+/// The states from which a repetition can be taken up.
+pub(super) const SNAPSHOTS: &str = "snapshots.bin";
+
 /// Writes everything into the folder. What cannot be written of a recording is returned, and told in the report, which is written all the
 /// same.
 pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<Vec<String>, OutputError> {
@@ -54,6 +57,10 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
     }
     if plan.hash_every_steps > 0 {
         failures.extend(recording::write_state_log(&folder.join(STATE_LOG), &left.traces).err().map(|error| error.to_string()));
+    }
+    if !left.snapshots.all.is_empty() {
+        let bytes = left.snapshots.to_bytes().map_err(|error| error.to_string());
+        failures.extend(bytes.and_then(|bytes| write_file(&folder.join(SNAPSHOTS), bytes).map_err(|error| error.to_string())).err());
     }
     #[cfg(feature = "rerun")]
     if plan.rrd {

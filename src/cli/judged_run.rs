@@ -98,6 +98,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         SimulationError::Demonstrations(DemonstrationError::Io { .. } | DemonstrationError::Invalid(_))
         | SimulationError::Urdf(_)
         | SimulationError::Arm(_)
+        | SimulationError::Snapshot(_)
         | SimulationError::Unreachable { .. }
         | SimulationError::Swing { .. }
         | SimulationError::JointCounts(_)

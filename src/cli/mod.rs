@@ -4,6 +4,7 @@
 //! pipe is no error, and a panic is a bug that is reported as one.
 
 mod args;
+mod beginning;
 mod check;
 mod check_motion;
 mod check_target;

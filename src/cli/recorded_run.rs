@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::args::{Global, Phase};
+use super::args::Global;
+use super::beginning::Beginning;
 use super::files::STATE_LOG;
 use crate::recording::read_state_log;
 use crate::report::{Host, hash_file};
@@ -12,6 +13,7 @@ use crate::scenario::LoadOptions;
 use crate::simulation::WorldTrace;
 
 /// What the folder of a run says about it.
+#[derive(Clone)]
 pub(super) struct Recorded {
     manifest: Value,
     /// Hash over every state of the run.
@@ -42,20 +44,20 @@ impl Recorded {
         Ok(Self { manifest, state_hash, traces })
     }
 
-    /// The part of it that a repetition from that phase on is held against.
-    pub fn from(self, phase: Option<Phase>) -> Result<Self, String> {
-        if phase.is_none() {
-            return Ok(self);
-        }
-        // The hash of the skill is part of both: it tells whether the folder's skill is the one that was learned.
-        let traces: Vec<WorldTrace> =
-            self.traces.into_iter().filter(|world| ["learn", "execute"].contains(&world.phase.as_str())).collect();
+    /// The part of it that a repetition from there on is held against.
+    pub fn from(&self, begin: Option<&Beginning>) -> Result<Self, String> {
+        let Some(begin) = begin else { return Ok(self.clone()) };
+        let traces: Vec<WorldTrace> = match begin.step() {
+            Some(step) => self.traces.iter().filter_map(|world| world.after(step)).collect(),
+            // The hash of the skill is part of both: it tells whether the folder's skill is the one that was learned.
+            None => self.traces.iter().filter(|world| ["learn", "execute"].contains(&world.phase.as_str())).cloned().collect(),
+        };
         if traces.is_empty() {
             return Err(
                 "the run kept no hashes on the way (`recording.hash_every_steps`): make it again as a whole, without --from".to_owned()
             );
         }
-        Ok(Self { state_hash: last_hash(&traces), traces, ..self })
+        Ok(Self { state_hash: last_hash(&traces), traces, manifest: self.manifest.clone() })
     }
 
     /// The files that decided the run, as they are found from here, with the hash that each had.

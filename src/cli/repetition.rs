@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::args::Phase;
+use super::beginning::Beginning;
 use super::judged_run::{Left, judged_run, outcome_of};
 use super::recorded_run::last_hash;
 use crate::check::planar_traces;
@@ -15,8 +16,8 @@ use crate::simulation::{self, DemonstrationSource, Experiment, Progress, Simulat
 pub(super) struct Repetition<'a> {
     /// The folder of the run.
     pub folder: &'a Path,
-    /// The phase with which to begin; what comes before it is taken from the folder.
-    pub from: Option<Phase>,
+    /// Where to begin; what comes before it is taken from the folder.
+    pub from: Option<&'a Beginning>,
     pub progress: &'a dyn Progress,
 }
 
@@ -58,18 +59,21 @@ impl Repetition<'_> {
         let run = |experiment: &Experiment| simulation::run(experiment, self.progress).map(|left| left.traces);
         match self.from {
             None => run(experiment),
-            Some(Phase::Learn) => {
+            Some(Beginning::Phase(Phase::Learn)) => {
                 let demonstrations = DemonstrationSource::Dataset(self.folder.join("demonstrations"));
                 run(&Experiment { demonstrations, ..experiment.clone() })
             }
-            Some(Phase::Execute) => {
-                let path = self.folder.join("skill.json");
-                let skill = Skill::read(&path).map_err(|error| match error {
-                    LearningError::Skill(message) => LearningError::Skill(format!("{}: {message}", path.display())),
-                    other => other,
-                })?;
-                simulation::execute_again(experiment, &skill, self.progress)
-            }
+            Some(Beginning::Phase(Phase::Execute)) => simulation::execute_again(experiment, &self.skill()?, self.progress),
+            Some(Beginning::Snapshot(snapshot)) => simulation::resume(experiment, &self.skill()?, snapshot, self.progress),
         }
+    }
+
+    /// The skill that the run left.
+    fn skill(&self) -> Result<Skill, LearningError> {
+        let path = self.folder.join("skill.json");
+        Skill::read(&path).map_err(|error| match error {
+            LearningError::Skill(message) => LearningError::Skill(format!("{}: {message}", path.display())),
+            other => other,
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! `cpdmp replay`: a run again, held against what its folder holds.
 
-use super::args::{Format, Global, Phase, Replay};
+use super::args::{Format, Global, Replay};
+use super::beginning::{Beginning, ineffective};
 use super::failure::Failure;
 use super::load::options;
 use super::progress::Shown;
@@ -10,18 +11,18 @@ use super::replay_report::ReplayReport;
 use super::terminal::Terminal;
 use crate::check::{DifferenceKind, ReplayDifference, exact_difference, first_difference};
 use crate::report::Outcome;
-use crate::scenario::{InvalidScenario, LoadOptions, Scenario, Work, spelled};
+use crate::scenario::{InvalidScenario, LoadOptions, Scenario, Work};
 use crate::simulation::{Experiment, TraceDetail, WorldTrace};
 
 /// Runs a run again, or the rest of it from a phase on, and compares every state hash that it left.
 pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -> Outcome {
     let folder = arguments.folder.as_path();
     let stop = |outcome, text: &str| Failure::new(outcome, [text.to_owned()]).tell(terminal);
-    let without_effect = ineffective(arguments.from, global);
+    let without_effect = ineffective(arguments, global);
     if !without_effect.is_empty() {
         return Failure::new(Outcome::Usage, without_effect).tell(terminal);
     }
-    let recorded = match Recorded::read(folder).and_then(|recorded| recorded.from(arguments.from)) {
+    let recorded = match Recorded::read(folder) {
         Ok(recorded) => recorded,
         Err(text) => return stop(Outcome::InvalidInput, &text),
     };
@@ -34,8 +35,13 @@ pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -
             return Failure::new(Outcome::InvalidInput, [text]).because(diagnostics).tell(terminal);
         }
     };
+    let begun = Beginning::of(arguments, &scenario);
+    let (begin, compared) = match begun.and_then(|begin| recorded.from(begin.as_ref()).map(|part| (begin, part))) {
+        Ok(both) => both,
+        Err(text) => return stop(Outcome::InvalidInput, &text),
+    };
     let progress = Shown::new(terminal, global.timeout);
-    let repetition = Repetition { folder, from: arguments.from, progress: &progress };
+    let repetition = Repetition { folder, from: begin.as_ref(), progress: &progress };
     let repeated = match repetition.of(&scenario) {
         Ok(repeated) => repeated,
         Err((outcome, text)) => {
@@ -43,45 +49,19 @@ pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -
             return stop(outcome, &text);
         }
     };
-    let mut difference = first_difference(&recorded.traces, &repeated.traces);
+    let mut difference = first_difference(&compared.traces, &repeated.traces);
     if let (Some(found), true) = (&mut difference, is_changed(global))
         && let Ok(as_recorded) = load(&LoadOptions::default())
     {
-        look_closer(found, &recorded, &as_recorded, &scenario, &repetition);
+        look_closer(found, &compared, &as_recorded, &scenario, &repetition);
     }
     drop(progress);
-    let report = report_of(arguments, &recorded, &repeated, difference.as_ref(), global);
+    let report = report_of((arguments, begin.as_ref()), &compared, &repeated, difference.as_ref(), global);
     match terminal.format {
         Format::Human => terminal.result(&report.text()),
         Format::Json => terminal.json(&report),
     }
     report.outcome
-}
-
-/// What flags would change of phases that are not made again, and of the recording, which is compared as the run left it.
-fn ineffective(from: Option<Phase>, global: &Global) -> Vec<String> {
-    let skipped: &[&str] = match from {
-        None => &[],
-        Some(Phase::Learn) => &["teaching", "demonstrations"],
-        Some(Phase::Execute) => &["teaching", "demonstrations", "learning"],
-    };
-    let phase = from.map_or("", Phase::name);
-    let told = |typed: &String| {
-        let key = spelled(typed.split('=').next().unwrap_or_default());
-        let table = key.split('.').next().unwrap_or_default();
-        if skipped.contains(&table) {
-            Some(format!(
-                "--set {key} has no effect with --from {phase}: what it decides is taken from the folder; leave one of the two out"
-            ))
-        } else {
-            (table == "recording").then(|| format!("--set {key} has no effect: replay compares what the run recorded, as often as it did"))
-        }
-    };
-    let mut faults: Vec<String> = global.set.iter().filter_map(told).collect();
-    if from.is_some() && global.seed.is_some() {
-        faults.push(format!("--seed decides the teaching, which --from {phase} takes from the folder: leave one of the two out"));
-    }
-    faults
 }
 
 /// Finds the very step, by running both scenarios again and keeping whole states where the hashes part. Possible only where the recorded run
@@ -113,7 +93,7 @@ fn look_closer(found: &mut ReplayDifference, recorded: &Recorded, as_recorded: &
 
 /// What there is to say about a run and its repetition.
 fn report_of(
-    arguments: &Replay,
+    (arguments, begin): (&Replay, Option<&Beginning>),
     recorded: &Recorded,
     repeated: &Repeated,
     parting: Option<&ReplayDifference>,
@@ -125,7 +105,8 @@ fn report_of(
     let report = ReplayReport {
         schema_version: 1,
         run: arguments.folder.clone(),
-        from: arguments.from.map(Phase::name),
+        from: begin.map(|begin| begin.phase().name()),
+        from_step: begin.and_then(Beginning::step),
         outcome,
         exit_code: outcome.exit_code(),
         recorded_state_hash: recorded.state_hash.clone(),

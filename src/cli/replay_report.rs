@@ -17,6 +17,8 @@ pub(super) struct ReplayReport {
     pub run: PathBuf,
     /// The phase from which on it was made again, `learn` or `execute`; `null` for all of it.
     pub from: Option<&'static str>,
+    /// The step of the execution after which it was made again, from a snapshot; `null` when it began with a phase or the run.
+    pub from_step: Option<u64>,
     /// `passed` when the two are the same to the last bit, `replay_differs` when not.
     pub outcome: Outcome,
     /// The exit code that belongs to it.
@@ -62,7 +64,11 @@ impl ReplayReport {
 
     /// The report for people.
     pub fn text(&self) -> String {
-        let from = self.from.map_or_else(String::new, |phase| format!(" from `{phase}` on"));
+        let from = match (self.from_step, self.from) {
+            (Some(step), _) => format!(" from step {step} of the execution on"),
+            (None, Some(phase)) => format!(" from `{phase}` on"),
+            (None, None) => String::new(),
+        };
         let run = format!("{}{from}", self.run.display());
         match &self.difference {
             None => format!("{run}: identical, state hash {}, {} hashes on the way\n", self.repeated_state_hash, self.hashes),

@@ -22,7 +22,7 @@ pub use impedance::ImpedanceSettings;
 pub use joint_tracking::PostureTracker;
 pub use observation::Observation;
 pub use pose_tracking::PoseTracker;
-pub use skill_controller::{Follower, SkillController, UnmeasuredWrench, WRENCH_COLUMNS};
+pub use skill_controller::{ControllerSnapshot, Follower, SkillController, UnmeasuredWrench, WRENCH_COLUMNS};
 pub use trajectory_controller::{ToolPath, TrajectoryController};
 pub use wrench_observer::WrenchObserver;
 pub use zero_gravity::ZeroGravity;

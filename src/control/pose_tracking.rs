@@ -1,6 +1,7 @@
 //! Follows a moving tool pose with joint impedance: differential inverse kinematics makes it a moving posture.
 
 use nalgebra::{Isometry3, Vector6};
+use serde::{Deserialize, Serialize};
 
 use super::{ArmModel, ImpedanceSettings};
 use crate::robot::{JointCommand, pose_error};
@@ -16,7 +17,30 @@ pub struct PoseTracker {
     last: Option<Isometry3<f64>>,
 }
 
+/// What of a tracker changes from step to step.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct TrackerSnapshot {
+    reference_q: Vec<f64>,
+    reference_v: Vec<f64>,
+    last: Option<Isometry3<f64>>,
+}
+
 impl PoseTracker {
+    /// What there is to go on from.
+    pub(super) fn snapshot(&self) -> TrackerSnapshot {
+        TrackerSnapshot { reference_q: self.reference_q.clone(), reference_v: self.reference_v.clone(), last: self.last }
+    }
+
+    /// Goes on from there; `false` when that is of another arm.
+    pub(super) fn restore(&mut self, from: TrackerSnapshot) -> bool {
+        let n = self.reference_q.len();
+        let fits = [from.reference_q.len(), from.reference_v.len()] == [n; 2];
+        if fits {
+            (self.reference_q, self.reference_v, self.last) = (from.reference_q, from.reference_v, from.last);
+        }
+        fits
+    }
+
     /// A tracker for control steps of `step_s` (s).
     pub fn new(model: ArmModel, settings: ImpedanceSettings, step_s: f64) -> Self {
         let n = model.joints();

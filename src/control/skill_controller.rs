@@ -1,12 +1,15 @@
 //! Executes a learned skill: the CPDMP runs in the control loop, fed by the arm's own wrench estimate.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::feedback::StateFeedback;
+use super::pose_tracking::TrackerSnapshot;
+use super::wrench_observer::ObserverSnapshot;
 use super::{
     ArmModel, Command, Controller, Feedback, ImpedanceSettings, Observation, PoseTracker, PostureTracker, Telemetry, WrenchObserver,
 };
-use crate::learning::{Skill, SkillExecution, SkillState, StepInput};
+use crate::learning::{ExecutionSnapshot, Skill, SkillExecution, SkillState, StepInput};
 
 /// How the arm follows a skill.
 pub enum Follower {
@@ -87,6 +90,38 @@ impl SkillController {
             }
         };
         self.skill.step(&StepInput { wrench: &self.wrench, measured, jacobian, ..StepInput::of(self.step_s) });
+    }
+}
+
+/// What of a controller changes from step to step.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ControllerSnapshot {
+    skill: ExecutionSnapshot,
+    /// Of a follower in task space.
+    tracker: Option<TrackerSnapshot>,
+    observer: ObserverSnapshot,
+    started: bool,
+}
+
+impl SkillController {
+    /// Where the controller is, between two steps.
+    pub fn snapshot(&self) -> ControllerSnapshot {
+        let tracker = match &self.follower {
+            Follower::Tool { tracker, .. } => Some(tracker.snapshot()),
+            Follower::Joints(_) => None,
+        };
+        ControllerSnapshot { skill: self.skill.snapshot(), tracker, observer: self.observer.snapshot(), started: self.started }
+    }
+
+    /// Goes on from where a controller of the same skill and arm was, in the same bits. Returns whether the snapshot fits this one.
+    pub fn restore(&mut self, from: ControllerSnapshot) -> bool {
+        let tracked = match (&mut self.follower, from.tracker) {
+            (Follower::Tool { tracker, .. }, Some(there)) => tracker.restore(there),
+            (Follower::Joints(_), None) => true,
+            _ => false,
+        };
+        self.started = from.started;
+        tracked && self.skill.restore(from.skill) && self.observer.restore(from.observer)
     }
 }
 

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Vector6;
+use serde::{Deserialize, Serialize};
 
 use super::{ArmModel, Observation};
 use crate::robot::{EffortModel, JointReading, WrenchEstimator};
@@ -25,7 +26,29 @@ pub struct WrenchObserver {
     filtered: Option<Vector6<f64>>,
 }
 
+/// What of an observer changes from step to step.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct ObserverSnapshot {
+    last: Option<(Vec<f64>, Vec<f64>)>,
+    filtered: Option<Vector6<f64>>,
+}
+
 impl WrenchObserver {
+    /// What there is to go on from.
+    pub(super) fn snapshot(&self) -> ObserverSnapshot {
+        ObserverSnapshot { last: self.last.clone(), filtered: self.filtered }
+    }
+
+    /// Goes on from there; `false` when that is of another arm.
+    pub(super) fn restore(&mut self, from: ObserverSnapshot) -> bool {
+        let n = self.effort.len();
+        let fits = from.last.as_ref().is_none_or(|(q, v)| [q.len(), v.len()] == [n; 2]);
+        if fits {
+            (self.last, self.filtered) = (from.last, from.filtered);
+        }
+        fits
+    }
+
     /// An observer for control steps of `step_s` (s); `cutoff_hz` of the first-order low-pass, infinite for none.
     pub fn new(model: ArmModel, kind: EffortModel, cutoff_hz: f64, step_s: f64) -> Self {
         let n = model.joints();

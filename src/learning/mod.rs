@@ -36,8 +36,8 @@ mod warnings;
 pub use ends::{EndRule, EndsReport};
 pub use error::{LearningError, SettingFault};
 pub use execution::{
-    ExecutionSettings, Measured, PhaseStopping, SkillExecution, SkillState, StepInput, TaskSpaceState, generate, task_space_states,
-    wrench_columns,
+    ExecutionSettings, ExecutionSnapshot, Measured, PhaseStopping, SkillExecution, SkillState, StepInput, TaskSpaceState, generate,
+    task_space_states, wrench_columns,
 };
 pub use features::{FeatureMap, Features, Standard};
 pub use gmr::Gmr;

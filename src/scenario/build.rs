@@ -40,7 +40,11 @@ pub(super) fn experiment(scenario: &Node) -> Experiment {
         learning: build_learning::learning(&learning),
         execution: execution(&scenario.section("execution"), &scenario.section("coupling"), &human.section("help")),
         log_rate_hz: simulation.number("log_rate_hz"),
-        trace: TraceSettings { every_steps: scenario.section("recording").count("hash_every_steps"), detail: None },
+        trace: TraceSettings {
+            every_steps: scenario.section("recording").count("hash_every_steps"),
+            snapshot_every_steps: scenario.section("recording").count("snapshot_every_steps"),
+            detail: None,
+        },
     }
 }
 

@@ -492,6 +492,12 @@ const RECORDING: Shape = Shape::plain(&[
     Key::new("demonstrations", Flag, "demonstrations/, the dataset that was learned from").or(Preset::Flag(true)),
     Key::new("hash_every_steps", Count(0, 1_000_000), "state_hashes.parquet, for `cpdmp replay`: steps between two hashes; 0 for none")
         .or(Preset::Count(100)),
+    Key::new(
+        "snapshot_every_steps",
+        Count(0, 10_000_000),
+        "snapshots.bin, from which `cpdmp replay --from-time` takes the execution up: steps between two; 0 for none",
+    )
+    .or(Preset::Count(5000)),
 ]);
 
 /// What makes movements in planar experiments.

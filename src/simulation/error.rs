@@ -50,6 +50,9 @@ pub enum SimulationError {
     /// The skill takes a wrench that the arm does not measure.
     #[error(transparent)]
     Wrench(#[from] UnmeasuredWrench),
+    /// An execution cannot be taken up from what was kept of it.
+    #[error("the snapshot cannot be used: {0}; run again without it")]
+    Snapshot(String),
     /// The world could not be built, or diverged.
     #[error(transparent)]
     World(#[from] WorldError),

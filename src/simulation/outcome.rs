@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{LessonRecord, StepRecord, WorldTrace};
+use super::{LessonRecord, Snapshots, StepRecord, WorldTrace};
 use crate::demonstration::{Dataset, Trajectory};
 use crate::learning::{LearningReport, Skill};
 use crate::robot::{Finding, RobotModel};
@@ -43,6 +43,8 @@ pub struct RunOutcome {
     pub state_hash: u64,
     /// What was kept of the states, world by world, in the order of the phases.
     pub traces: Vec<WorldTrace>,
+    /// States of the execution from which it can be taken up.
+    pub snapshots: Snapshots,
     /// The setting's objects at the end of the run.
     pub final_objects: Vec<FinalObject>,
 }

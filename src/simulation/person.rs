@@ -2,11 +2,12 @@
 
 use nalgebra::{Isometry3, Vector3};
 use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
 
 use super::guide_path::GuidePath;
 use super::{AppliedForce, Help};
 use crate::math::{self, smooth_step};
-use crate::world::{GraspState, Hand, HandWrench, HumanSettings, World};
+use crate::world::{GraspState, Hand, HandSnapshot, HandWrench, HumanSettings, World};
 
 /// Seconds in which a hand takes hold or lets go.
 const TAKE_HOLD_S: f64 = 0.4;
@@ -19,6 +20,23 @@ const LET_GO_DELAY_S: f64 = 1.0;
 pub(super) trait Person {
     /// What the hand does in the coming step.
     fn act(&mut self, world: &World, step_s: f64) -> HandWrench;
+
+    /// What they remember from step to step; most do not.
+    fn snapshot(&self) -> PersonSnapshot {
+        PersonSnapshot::default()
+    }
+
+    /// Goes on from there.
+    fn restore(&mut self, _from: &PersonSnapshot) {}
+}
+
+/// What a person remembers from step to step.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct PersonSnapshot {
+    since: Option<f64>,
+    closed_since: Option<f64>,
+    strength: f64,
+    hand: HandSnapshot,
 }
 
 /// Nobody there.
@@ -107,6 +125,15 @@ impl Person for Guide {
         let watching = self.closed_since.is_none();
         let gaze_error = if watching { Vector3::new(self.weight[0] * away.x, self.weight[1] * away.y, 0.0) } else { Vector3::zeros() };
         self.hand.help(step_s, &world.grasp_state(), gaze_error, smooth_step(self.strength, 0.0, 1.0), self.force_max_n)
+    }
+
+    fn snapshot(&self) -> PersonSnapshot {
+        PersonSnapshot { since: self.since, closed_since: self.closed_since, strength: self.strength, hand: self.hand.snapshot() }
+    }
+
+    fn restore(&mut self, from: &PersonSnapshot) {
+        (self.since, self.closed_since, self.strength) = (from.since, from.closed_since, from.strength);
+        self.hand.restore(from.hand);
     }
 }
 

@@ -8,7 +8,10 @@ use super::execution::execute;
 use super::replay::{Replay, replay};
 use super::setup::Setup;
 use super::teaching::{Lesson, demonstration, settings_of, teach};
-use super::{DemonstrationSource, Experiment, LessonRecord, PhaseSummary, Progress, RunOutcome, SimulationError, TeachingPlan, WorldTrace};
+use super::{
+    DemonstrationSource, Experiment, LessonRecord, PhaseSummary, Progress, RunOutcome, SimulationError, Snapshot, Snapshots, TeachingPlan,
+    WorldTrace,
+};
 use crate::demonstration::{Dataset, Demonstration, ParameterSource};
 use crate::learning::{self, Learned, Skill};
 
@@ -60,7 +63,7 @@ pub fn perform(
     let mut outcome = planned(setup, dataset, learned, std::mem::take(&mut history.lessons))?;
     progress.planned(&outcome);
     progress.phase("execute", 0);
-    let executed = execute(setup, &learned.skill, progress)?;
+    let executed = execute(setup, &learned.skill, None, progress)?;
     if setup.experiment.trace.every_steps > 0 {
         history.traces.push(WorldTrace::of_text("learn", "skill", &learned.skill.to_json()?));
     }
@@ -75,6 +78,7 @@ pub fn perform(
     outcome.collisions = executed.collisions;
     outcome.clearances = executed.clearances;
     outcome.final_objects = executed.final_objects;
+    outcome.snapshots = executed.snapshots;
     outcome.phases = history.phases;
     outcome.traces = history.traces;
     match executed.cut_short {
@@ -106,6 +110,7 @@ fn planned(setup: &Setup, dataset: &Dataset, learned: &Learned, lessons: Vec<Les
         phases: Vec::new(),
         state_hash: 0,
         traces: Vec::new(),
+        snapshots: Snapshots::new(),
         final_objects: Vec::new(),
     })
 }
@@ -117,12 +122,31 @@ fn planned(setup: &Setup, dataset: &Dataset, learned: &Learned, lessons: Vec<Les
 pub fn execute_again(experiment: &Experiment, skill: &Skill, progress: &dyn Progress) -> Result<Vec<WorldTrace>, SimulationError> {
     let setup = Setup::new(experiment)?;
     progress.phase("execute", 0);
-    let executed = execute(&setup, skill, progress)?;
+    let executed = execute(&setup, skill, None, progress)?;
     match executed.cut_short {
         None => {
             let learned = WorldTrace::of_text("learn", "skill", &skill.to_json()?);
             Ok(std::iter::once(learned).chain(WorldTrace::of("execute", 0, executed.trace)).collect())
         }
+        Some(reason) => Err(reason),
+    }
+}
+
+/// Takes up the execution of a skill from `snapshot`, and returns what is kept of the states that come after it.
+///
+/// # Errors
+/// As [`execute_again`], and when the snapshot is not of this experiment and skill.
+pub fn resume(
+    experiment: &Experiment,
+    skill: &Skill,
+    snapshot: &Snapshot,
+    progress: &dyn Progress,
+) -> Result<Vec<WorldTrace>, SimulationError> {
+    let setup = Setup::new(experiment)?;
+    progress.phase("execute", 0);
+    let executed = execute(&setup, skill, Some(snapshot), progress)?;
+    match executed.cut_short {
+        None => Ok(WorldTrace::of("execute", 0, executed.trace.after(snapshot.step)).into_iter().collect()),
         Some(reason) => Err(reason),
     }
 }

@@ -11,6 +11,8 @@ use crate::world::StateTrace;
 pub struct TraceSettings {
     /// Steps between two hashes; 0 keeps none. Default 100.
     pub every_steps: u64,
+    /// Steps of the execution between two snapshots, from which it can be taken up; 0 makes none. Default 5000.
+    pub snapshot_every_steps: u64,
     /// A stretch of which whole states are kept.
     pub detail: Option<TraceDetail>,
 }
@@ -39,7 +41,7 @@ pub struct WorldTrace {
 
 impl Default for TraceSettings {
     fn default() -> Self {
-        Self { every_steps: 100, detail: None }
+        Self { every_steps: 100, snapshot_every_steps: 5000, detail: None }
     }
 }
 
@@ -54,6 +56,12 @@ impl WorldTrace {
     /// The trace of a world, unless nothing was kept.
     pub(super) fn of(phase: &str, number: u64, trace: StateTrace) -> Option<Self> {
         (!trace.steps.is_empty()).then(|| Self { phase: phase.to_owned(), number, trace })
+    }
+
+    /// The part that comes after `step` of the execution; of anything else nothing.
+    #[must_use]
+    pub fn after(&self, step: u64) -> Option<Self> {
+        (self.phase == "execute").then(|| Self { trace: self.trace.after(step), ..self.clone() })
     }
 
     /// The trace of a text that a run made.

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use rapier3d_f64::prelude::{ImpulseJointHandle, PhysicsWorld, RigidBodyHandle, SphericalJointBuilder};
+use serde::{Deserialize, Serialize};
 
 use super::cabinet::{Cabinet, Grip};
 use super::{Parameters, convert};
@@ -28,7 +29,16 @@ pub(super) struct Hook {
     pub force: Vector3<f64>,
 }
 
+/// What of a hook changes from step to step.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct HookSnapshot {
+    closed: bool,
+    clamp: Option<Clamp>,
+    force: Vector3<f64>,
+}
+
 /// A closed clamp: a ball joint between the hook's middle and a point of the door that moves gently to the bar's axis.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Clamp {
     joint: ImpulseJointHandle,
     /// Where the joint first holds the door, and where it does when the clamp has closed, in the door's frame (m).
@@ -58,6 +68,16 @@ impl Hook {
             clamp: None,
             force: Vector3::zeros(),
         }
+    }
+
+    /// What there is to go on from, beside the engine.
+    pub(super) fn snapshot(&self) -> HookSnapshot {
+        HookSnapshot { closed: self.closed, clamp: self.clamp.clone(), force: self.force }
+    }
+
+    /// Goes on from there.
+    pub(super) fn restore(&mut self, from: HookSnapshot) {
+        (self.closed, self.clamp, self.force) = (from.closed, from.clamp, from.force);
     }
 
     /// Whether the clamp holds a bar.

@@ -44,6 +44,16 @@ impl EffortSensors {
         }
     }
 
+    /// How far the stream of the noise has been used (words of 32 bits).
+    pub fn words_used(&self) -> u128 {
+        self.noise.get_word_pos()
+    }
+
+    /// Goes on with the noise from there.
+    pub fn go_on_from(&mut self, words_used: u128) {
+        self.noise.set_word_pos(words_used);
+    }
+
     /// The measured efforts (N m) of joints whose drives deliver `effort_nm`, in place.
     pub fn measure(&mut self, effort_nm: &mut [f64]) {
         for (effort, bias) in effort_nm.iter_mut().zip(&self.bias_nm) {

@@ -195,7 +195,7 @@ impl World {
         }
     }
 
-    fn read_joints(&mut self) {
+    pub(super) fn read_joints(&mut self) {
         let (q, v) = &mut self.joint_state;
         self.robot.working.read(&self.engine, q, v);
     }

@@ -59,6 +59,18 @@ impl StateTrace {
         trace
     }
 
+    /// The part of the trace that comes after `step`, each hash over the states of its own step alone: what is left to compare of a run that was
+    /// taken up there.
+    pub fn after(&self, step: u64) -> Self {
+        let mut rest = Self { bodies: self.bodies.clone(), states: self.states.clone(), ..Self::default() };
+        for (index, &kept) in self.steps.iter().enumerate().filter(|(_, kept)| **kept > step) {
+            let quantities = self.quantities_at(index);
+            let bytes: Vec<u8> = quantities.iter().flatten().flat_map(|part| part.to_le_bytes()).collect();
+            rest.push(kept, XxHash3_64::oneshot(&bytes), quantities.iter().copied());
+        }
+        rest
+    }
+
     /// The hashes of the quantities at the `index`-th of the steps, body by body.
     pub fn quantities_at(&self, index: usize) -> &[[u32; 4]] {
         let bodies = self.bodies.len();

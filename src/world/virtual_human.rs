@@ -4,6 +4,7 @@
 //! person looks at the gripper, a slow visual correction shifts the wanted place until the gripper is where it should be.
 
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// The person's hand.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,6 +79,13 @@ pub struct GraspState {
     pub angular_velocity: Vector3<f64>,
 }
 
+/// What of a hand changes from step to step: the visual correction (m) and the push that has built up (N).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HandSnapshot {
+    correction: Vector3<f64>,
+    push: Vector3<f64>,
+}
+
 /// A hand on the wrist.
 #[derive(Clone, Debug)]
 pub struct Hand {
@@ -92,6 +100,16 @@ impl Hand {
     /// A hand that has just taken hold.
     pub fn new(settings: HumanSettings) -> Self {
         Self { settings, correction: Vector3::zeros(), push: Vector3::zeros() }
+    }
+
+    /// What there is to go on from.
+    pub fn snapshot(&self) -> HandSnapshot {
+        HandSnapshot { correction: self.correction, push: self.push }
+    }
+
+    /// Goes on from there.
+    pub fn restore(&mut self, from: HandSnapshot) {
+        (self.correction, self.push) = (from.correction, from.push);
     }
 
     /// Leads the grasped wrist to `wanted` (pose and velocity of the same point) while watching `gaze_error`, the vector from where the

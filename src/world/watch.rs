@@ -33,6 +33,13 @@ impl EngineWatch {
         Self { book, travel_m: vec![0.0; handles.len()], balls, before: after.clone(), after, handles }
     }
 
+    /// Takes everything to have come from where it is, not from where it was when last looked at.
+    pub(super) fn look_again(&mut self, engine: &PhysicsWorld) {
+        for (after, &handle) in self.after.iter_mut().zip(&self.handles) {
+            *after = pose(engine, handle);
+        }
+    }
+
     /// Follows the step from `start_s` to `end_s` (s), which the engine has just taken. `held` are the objects in the gripper.
     pub(super) fn follow(&mut self, engine: &PhysicsWorld, held: &[usize], (start_s, end_s): (f64, f64)) {
         let Self { book, handles, balls, before, after, travel_m } = self;

@@ -45,6 +45,7 @@ fn a_run_tells_the_same_everywhere_and_can_be_repeated() {
             "report.json",
             "scenario.toml",
             "skill.json",
+            "snapshots.bin",
             "state_hashes.parquet",
             "steps.parquet"
         ]

@@ -108,6 +108,43 @@ fn a_run_that_is_taken_up_goes_on_in_the_same_bits() {
     assert!(said.code == Some(3) && said.stderr.contains("no hashes"), "{}", said.stderr);
 }
 
+/// Contract: a run is taken up in the middle, at the last snapshot before the time that was asked for, and what a person does otherwise from there
+/// on is told as it is told of the whole run. What a snapshot holds cannot be changed, and a damaged one is refused.
+#[test]
+fn a_run_is_taken_up_in_the_middle() {
+    let folder = ran(&[("a.toml", format!("{GOOD}{PUSHED}").as_bytes())], &["--set", "recording.snapshot_every_steps=900"]);
+    for (time, step) in [("0.9", 900), ("2.5", 1800), ("2.7", 2700), ("99", 3600)] {
+        let (code, same) = told(&folder, &["--from-time", time]);
+        assert_eq!((code, same["from_step"].as_u64(), same["from"].as_str()), (Some(0), Some(step), Some("execute")), "{same}");
+        assert!(same["hashes"].as_u64().is_some_and(|hashes| hashes > 0), "{same}");
+    }
+    let later = ["--set", "human.help.windows_s=[[3.2, 3.5]]"];
+    let (whole, middle) = (told(&folder, &later).1, told(&folder, &[&later[..], &["--from-time", "2"]].concat()));
+    assert_eq!((middle.0, middle.1["step"].as_u64()), (Some(13), whole["step"].as_u64()), "{}", middle.1);
+    let said = folder.call(&["replay", "run", "--from-time", "2"]);
+    assert!(said.stdout.contains("from step 1800 of the execution on: identical"), "{}", said.stdout);
+    for (flags, code, told) in [
+        (&["--from-time", "0.5"][..], 3, "the first snapshot of the run is that of 0.900 s"),
+        (&["--from-time", "2", "--set", "object.toy.friction=0.1"], 2, "only [human] goes with --from-time"),
+        (&["--from-time", "2", "--seed", "3"], 2, "--seed decides the teaching"),
+        (&["--from-time", "-1"], 2, "seconds since the execution began"),
+        (&["--from-time", "2", "--from", "learn"], 2, "cannot be used with"),
+    ] {
+        let said = folder.call(&[&["replay", "run"], flags].concat());
+        assert!(said.code == Some(code) && said.stderr.contains(told), "{flags:?}: {}", said.stderr);
+    }
+    let place = folder.path().join("run/snapshots.bin");
+    let mut bytes = fs::read(&place).expect("snapshots");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&place, &bytes).expect("written");
+    let said = folder.call(&["replay", "run", "--from-time", "2"]);
+    assert!(said.code == Some(3) && said.stderr.contains("snapshots.bin") && said.stderr.contains("damaged"), "{}", said.stderr);
+    fs::remove_file(&place).expect("removed");
+    let said = folder.call(&["replay", "run", "--from-time", "2"]);
+    assert!(said.code == Some(3) && said.stderr.contains("recording.snapshot_every_steps"), "{}", said.stderr);
+}
+
 /// Row 37 of the fault table: a run of another version or machine may differ, and is told so; one that is the same is the same all the same.
 #[test]
 fn another_version_or_architecture_is_named_as_the_reason() {

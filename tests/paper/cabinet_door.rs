@@ -15,6 +15,8 @@ use cpdmp::simulation::{Experiment, History, RunOutcome, Setup, Silent, Simulati
 use cpdmp::world::{Cabinet, Grip, ObjectKind, Parameters, door_turn, opening_rad};
 use nalgebra::{Isometry3, Vector2};
 
+use crate::support::goes_on_from_every_snapshot;
+
 /// Places of the handles along y, and of the places between and beyond them that were never shown (m).
 const HANDLE_3_M: f64 = 0.35;
 const BETWEEN_M: [f64; 4] = [0.425, 0.375, 0.325, 0.275];
@@ -176,6 +178,14 @@ fn the_same_skill_in_the_same_setting_does_the_same_to_the_last_bit() {
     let scenario = scenario_with("cabinet_door.toml", &[]);
     let hash = || executed(&scenario, taught(), 0.42, |_| {}).1.state_hash;
     assert_eq!(hash(), hash());
+}
+
+/// Contract: an opening that is taken up before, while and after the clamp holds the handle goes on in the same bits.
+#[test]
+fn an_opening_that_is_taken_up_goes_on_in_the_same_bits() {
+    let scenario = scenario_with("cabinet_door.toml", &["recording.snapshot_every_steps=1500", "recording.hash_every_steps=50"]);
+    let (experiment, outcome, _) = executed(&scenario, taught(), 0.42, |_| {});
+    goes_on_from_every_snapshot(&experiment, &outcome, 5);
 }
 
 #[test]

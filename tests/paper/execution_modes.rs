@@ -4,8 +4,10 @@ use std::path::Path;
 
 use cpdmp::robot::{SerialChain, baxter};
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
-use cpdmp::simulation::{RunOutcome, Silent, StepRecord, run};
+use cpdmp::simulation::{Experiment, RunOutcome, Silent, StepRecord, run};
 use nalgebra::{DVector, Isometry3, Vector3};
+
+use crate::support::goes_on_from_every_snapshot;
 
 /// An arm with perfect senses and no friction that is led once, from one place to another.
 const LED: &str = r#"
@@ -44,13 +46,19 @@ settle_s = 1.0
 
 /// The run of that scenario with these overrides.
 fn led(set: &[&str]) -> RunOutcome {
+    led_experiment(set).1
+}
+
+/// The same with what was asked for.
+fn led_experiment(set: &[&str]) -> (Experiment, RunOutcome) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("led.toml");
     std::fs::write(&path, LED).expect("written");
     let options = LoadOptions { set: set.iter().map(|typed| (*typed).to_owned()).collect(), ..LoadOptions::default() };
     let scenario = Scenario::load(Path::new(&path), &options).unwrap_or_else(|faults| panic!("{faults}"));
     let Work::Arm(experiment) = scenario.work else { panic!("no arm") };
-    run(&experiment, &Silent).expect("the run ends")
+    let outcome = run(&experiment, &Silent).expect("the run ends");
+    (*experiment, outcome)
 }
 
 fn at(outcome: &RunOutcome, time_s: f64) -> &StepRecord {
@@ -129,6 +137,17 @@ fn a_movement_of_the_joints_reaches_its_goal_and_is_moved_by_nobody_when_nobody_
     let worst = worst.fold(0.0, f64::max);
     assert!(worst < 0.02, "the tool leaves the planned path by {worst} m");
     assert!(outcome.steps.iter().all(|record| record.deviation.norm() < 5e-3), "by no more than what the model expects wrongly");
+}
+
+/// Contract: what a skill in joint space, a measured state, a phase that waits and noisy sensors remember is part of a snapshot.
+#[test]
+fn runs_of_every_mode_are_taken_up_in_the_same_bits() {
+    let noisy = ["robot.sensor.effort_noise_nm=0.05", "robot.sensor.filter_cutoff_hz=5", "recording.snapshot_every_steps=700"];
+    let waiting = ["execution.feedback=measured", "execution.feedback_time_s=0.1", "execution.phase_stopping=true", HELD];
+    for mode in [&JOINTS[..], &waiting] {
+        let (experiment, outcome) = led_experiment(&[&noisy, mode].concat());
+        goes_on_from_every_snapshot(&experiment, &outcome, 6);
+    }
 }
 
 const HELD: &str = "human.help={ kind = \"push\", force_n = [0.0, 0.0, 40.0], windows_s = [[1.0, 3.0]] }";

@@ -13,6 +13,8 @@ use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::{Experiment, History, RunOutcome, Setup, Silent, demonstrate, perform};
 use rayon::prelude::*;
 
+use crate::support::goes_on_from_every_snapshot;
+
 /// A shipped scenario.
 fn scenario(name: &str) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
@@ -164,6 +166,18 @@ fn the_lwr_baseline_touches_a_block_or_misses_the_toy() {
     for criteria in &trials {
         assert!(!passed(criteria, "blocks_untouched") || !passed(criteria, "toy_in_basket"));
     }
+}
+
+/// Contract: a run that is taken up before, while and after a person helps and the fingers hold the toy goes on in the same bits.
+#[test]
+fn a_run_that_is_taken_up_goes_on_in_the_same_bits() {
+    let mut scenario = scenario("pick_and_place.toml");
+    let Work::Arm(experiment) = &mut scenario.work else { panic!("no arm") };
+    experiment.trace.snapshot_every_steps = 3000;
+    let experiment = experiment.clone();
+    let (outcome, _) = executed(&scenario, &taught().1, 0.235, 0.0, experiment.seed);
+    let parameters = experiment.parameters.with(&[("block_height_m".into(), 0.235), ("toy_lateral_m".into(), 0.0)]);
+    goes_on_from_every_snapshot(&Experiment { parameters, ..*experiment }, &outcome, 9);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::learning::phmm::PhmmSettings;
 use cpdmp::learning::{ExecutionSettings, LearningSettings, ShapingKind, generate, learn};
-use cpdmp::simulation::{AppliedForce, FinalObject, LessonLook, LessonRecord, RunOutcome, StepRecord};
+use cpdmp::simulation::{AppliedForce, FinalObject, LessonLook, LessonRecord, RunOutcome, Snapshots, StepRecord};
 use cpdmp::world::{Clearance, Parameters};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3, Vector6};
 
@@ -76,6 +76,7 @@ fn learned(shaping: ShapingKind) -> RunOutcome {
         phases: Vec::new(),
         state_hash: 0x1234,
         traces: Vec::new(),
+        snapshots: Snapshots::new(),
         final_objects: objects.to_vec(),
     }
 }

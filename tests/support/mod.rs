@@ -2,7 +2,9 @@
 
 pub mod hand_made;
 
+use cpdmp::check::first_difference;
 use cpdmp::robot::{self, RobotModel};
+use cpdmp::simulation::{Experiment, RunOutcome, Silent, Snapshots, WorldTrace, resume};
 use cpdmp::world::{Object, ObjectKind, Parameters, PhysicsSettings, Solid, World, WorldSettings};
 use nalgebra::{Vector2, Vector3};
 
@@ -47,4 +49,17 @@ pub fn table(friction: f64) -> Object {
 pub fn cube(friction: f64) -> Object {
     let body = Solid { mass_kg: 1.0.into(), friction: friction.into(), fixed: false };
     object("cube", [3.0, -0.4], ObjectKind::Box { size_m: Vector3::new(0.1, 0.1, 0.1), body })
+}
+
+/// Takes the execution up from each snapshot that the run made, and holds every step's state that is kept after it against the run's own.
+pub fn goes_on_from_every_snapshot(experiment: &Experiment, outcome: &RunOutcome, least: usize) {
+    assert!(outcome.snapshots.all.len() >= least, "{} snapshots", outcome.snapshots.all.len());
+    let kept = Snapshots::from_bytes(&outcome.snapshots.to_bytes().expect("bytes")).expect("the same again");
+    assert_eq!(kept, outcome.snapshots);
+    for snapshot in &kept.all {
+        let again = resume(experiment, &outcome.skill, snapshot, &Silent).expect("it goes on");
+        let own: Vec<WorldTrace> = outcome.traces.iter().filter_map(|world| world.after(snapshot.step)).collect();
+        assert!(own.len() == 1 && !own[0].trace.steps.is_empty(), "nothing to compare after step {}", snapshot.step);
+        assert_eq!(first_difference(&own, &again), None, "taken up after step {}", snapshot.step);
+    }
 }

@@ -71,6 +71,11 @@ impl CanonicalSystem {
         (-self.alpha * self.u).exp()
     }
 
+    /// Goes on from time fraction `u` (-).
+    pub fn set_time_fraction(&mut self, u: f64) {
+        self.u = u;
+    }
+
     /// Goes on by `dt_s` (s) at the rate `rho` (-): 1 as taught, less to wait for somebody.
     pub fn advance(&mut self, dt_s: f64, rho: f64) {
         self.u += rho * dt_s / self.duration_s;

@@ -2,7 +2,7 @@
 //! that moves with the phase.
 
 /// Position and velocity of one degree of freedom.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Motion {
     /// Position (unit of the column, e.g. m).
     pub position: f64,

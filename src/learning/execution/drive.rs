@@ -1,7 +1,9 @@
 //! Where the spring of a movement is pulled to, while start, goal and goal velocity are what the moment says.
 
+use serde::{Deserialize, Serialize};
+
 /// What the phase says at one moment, the same for every degree of freedom.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Moment {
     /// `s` (-).
     pub(super) phase: f64,
@@ -10,7 +12,7 @@ pub(super) struct Moment {
 }
 
 /// The ends of one degree of freedom.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Ends {
     /// `x0` (unit).
     pub(super) start: f64,

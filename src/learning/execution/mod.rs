@@ -8,6 +8,7 @@ mod movement;
 mod settings;
 mod skill_execution;
 mod skill_state;
+mod snapshot;
 mod step_input;
 mod turning;
 
@@ -16,4 +17,5 @@ pub use generate::{TaskSpaceState, generate, task_space_states};
 pub use settings::{ExecutionSettings, PhaseStopping};
 pub use skill_execution::SkillExecution;
 pub use skill_state::SkillState;
+pub use snapshot::ExecutionSnapshot;
 pub use step_input::{Measured, StepInput};

@@ -1,6 +1,7 @@
 //! The position of a skill in motion: the undisturbed movement and the deviation from it.
 
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
 use super::drive::{Ends, Moment};
 use crate::learning::cpdmp::ShapingFunction;
@@ -22,11 +23,20 @@ pub(super) struct Movement {
 }
 
 /// The forcing term at one moment.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Sample {
     moment: Moment,
     forcing: Vec<f64>,
     state: usize,
+}
+
+/// What of a movement changes from step to step.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct MovementSnapshot {
+    ends: Vec<Ends>,
+    undisturbed: Vec<Motion>,
+    deviation: Vec<Motion>,
+    now: Sample,
 }
 
 /// One step of the clock.
@@ -64,6 +74,22 @@ impl Movement {
         };
         movement.now.take(&mut movement.shaping, 0.0);
         movement
+    }
+
+    /// What there is to go on from.
+    pub(super) fn snapshot(&self) -> MovementSnapshot {
+        let Self { ends, undisturbed, deviation, now, .. } = self.clone();
+        MovementSnapshot { ends, undisturbed, deviation, now }
+    }
+
+    /// Goes on from there; `false` when that is of a movement with other columns.
+    pub(super) fn restore(&mut self, from: MovementSnapshot) -> bool {
+        let d = self.ends.len();
+        let fits = [from.ends.len(), from.undisturbed.len(), from.deviation.len(), from.now.forcing.len()] == [d; 4];
+        if fits {
+            (self.ends, self.undisturbed, self.deviation, self.now) = (from.ends, from.undisturbed, from.deviation, from.now);
+        }
+        fits
     }
 
     /// The most responsible state now.

@@ -30,21 +30,21 @@ use crate::learning::{GripperProfile, LearningError, Request, Skill};
 /// A skill being executed.
 #[derive(Debug, Clone)]
 pub struct SkillExecution {
-    canonical: CanonicalSystem,
+    pub(super) canonical: CanonicalSystem,
     stiffness: f64,
     duration_s: f64,
-    goal: DVector<f64>,
-    movement: Movement,
-    turning: Option<Turning>,
+    pub(super) goal: DVector<f64>,
+    pub(super) movement: Movement,
+    pub(super) turning: Option<Turning>,
     gripper: Option<GripperProfile>,
     force: Option<ExpectedWrench>,
     wrench_columns: Vec<String>,
     coupling: Option<Coupling>,
     phase_stopping: Option<PhaseStopping>,
     /// `zeta / K` (d; unit of the columns).
-    displacement: Vec<f64>,
+    pub(super) displacement: Vec<f64>,
     alpha: f64,
-    state: SkillState,
+    pub(super) state: SkillState,
 }
 
 impl SkillExecution {

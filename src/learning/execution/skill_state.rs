@@ -1,9 +1,10 @@
 //! What a control loop learns from each step of a skill.
 
 use nalgebra::{DVector, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// Where a skill is. Motion, phase, orientation and gripper at the end of the step; what decided about forces as it was during it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SkillState {
     /// Time since the start (s).
     pub time_s: f64,

@@ -8,6 +8,7 @@
 //! half and whole turns are no edges. From there on everything is linear, and the goal is reached as that of the position is.
 
 use nalgebra::{UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::drive::{Ends, Moment};
 use super::movement::Tick;
@@ -29,6 +30,15 @@ pub(super) struct Turning {
     taught: [Vector3<f64>; 2],
     ends: [Ends; 3],
     /// The goal as an orientation and its angular velocity (rad/s, base axes).
+    goal: (UnitQuaternion<f64>, Vector3<f64>),
+    motion: [Motion; 3],
+    u: f64,
+}
+
+/// What of a turning changes from step to step.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct TurningSnapshot {
+    ends: [Ends; 3],
     goal: (UnitQuaternion<f64>, Vector3<f64>),
     motion: [Motion; 3],
     u: f64,
@@ -66,6 +76,16 @@ impl Turning {
             u: 0.0,
             profile,
         }
+    }
+
+    /// What there is to go on from.
+    pub(super) fn snapshot(&self) -> TurningSnapshot {
+        TurningSnapshot { ends: self.ends, goal: self.goal, motion: self.motion, u: self.u }
+    }
+
+    /// Goes on from there.
+    pub(super) fn restore(&mut self, from: &TurningSnapshot) {
+        (self.ends, self.goal, self.motion, self.u) = (from.ends, from.goal, from.motion, from.u);
     }
 
     /// From now on the goal is `goal` and turns at `angular_velocity` (rad/s, base axes).
