@@ -6,6 +6,7 @@
 mod args;
 mod check;
 mod check_motion;
+mod check_run;
 mod check_target;
 mod completions;
 mod examples;
