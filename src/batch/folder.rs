@@ -147,7 +147,7 @@ fn same(path: &Path, there: &About, asked: &About) -> Result<(), BatchError> {
         return differs(format!("it has {} members, this one {}", there.members, asked.members));
     }
     if there.sweep_hash != asked.sweep_hash {
-        return differs("its scenarios or the files that they use are not the same".to_owned());
+        return differs("its scenarios, the files that they use or its time limit are not the same".to_owned());
     }
     if there.shard != asked.shard {
         return differs(format!("it is shard {}, this one {}", there.shard, asked.shard));

@@ -11,6 +11,10 @@ use super::{BatchError, Cell};
 /// # Errors
 /// When a table is damaged or of another sweep than the first, when a member is in two of them or in none, or `out` cannot be written.
 pub fn merge(tables: &[PathBuf], out: &Path) -> Result<u64, BatchError> {
+    let target = out.canonicalize().ok();
+    if let Some(own) = tables.iter().find(|path| target.is_some() && of_table(path).canonicalize().ok() == target) {
+        return Err(BatchError::NotAWhole(format!("{} is to be joined, and cannot be where the whole goes too", own.display())));
+    }
     let mut sources = tables.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
     let Some(first) = sources.first() else { return Err(BatchError::NotAWhole("there are none".to_owned())) };
     let head = Head { shard: None, ..first.table.head.clone() };
@@ -28,6 +32,11 @@ pub fn merge(tables: &[PathBuf], out: &Path) -> Result<u64, BatchError> {
     Ok(head.members)
 }
 
+/// The table itself: the folder of a sweep stands for its own.
+fn of_table(path: &Path) -> PathBuf {
+    if path.is_dir() { path.join("sweep.parquet") } else { path.to_path_buf() }
+}
+
 /// A table and the row that it stands at.
 struct Source {
     table: TableFile,
@@ -36,9 +45,7 @@ struct Source {
 
 impl Source {
     fn open(path: &Path) -> Result<Self, BatchError> {
-        // The folder of a sweep stands for its table.
-        let path = if path.is_dir() { path.join("sweep.parquet") } else { path.to_path_buf() };
-        let mut table = TableFile::open(&path)?;
+        let mut table = TableFile::open(&of_table(path))?;
         let row = table.next()?;
         Ok(Self { table, row })
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use rayon::prelude::*;
 use twox_hash::XxHash3_64;
@@ -28,7 +29,8 @@ pub struct Plan {
     pub keys: Vec<(String, CellKind)>,
     /// Names of the scenario's criteria.
     pub criteria: Vec<String>,
-    /// Which sweep it is: over the program's version, every member's resolved scenario and the files that decide them, in hexadecimal.
+    /// Which sweep it is: over the program's version, the time limit, every member's resolved scenario and the files that decide them, in
+    /// hexadecimal.
     pub hash: String,
 }
 
@@ -59,11 +61,15 @@ enum Fault {
 }
 
 impl Plan {
-    /// Checks every member of `sweep`, on all threads; `ready` looks at what is beyond the scenario's text, and says what is wrong with it.
+    /// Checks every member of `sweep`, each of which may take `limit`, on all threads; `ready` looks at what is beyond the scenario's text, and says what is wrong with it.
     ///
     /// # Errors
     /// What is wrong with which members.
-    pub fn check(sweep: Sweep, ready: &(dyn Fn(&Scenario) -> Result<(), String> + Sync)) -> Result<Self, Box<NotReady>> {
+    pub fn check(
+        sweep: Sweep,
+        limit: Option<Duration>,
+        ready: &(dyn Fn(&Scenario) -> Result<(), String> + Sync),
+    ) -> Result<Self, Box<NotReady>> {
         let members = sweep.members();
         let mut sum = Sum { not_ready: NotReady { faulty: 0, invalid: Vec::new(), refused: Vec::new() }, ..Sum::default() };
         for start in (0..members).step_by(CHUNK as usize) {
@@ -78,7 +84,7 @@ impl Plan {
         }
         let keys = sweep.keys().into_iter().map(str::to_owned);
         let keys = keys.zip(&sum.kinds).map(|(key, kind)| (key, kind.unwrap_or(CellKind::Text))).collect();
-        let hash = sum.hash();
+        let hash = sum.hash(limit);
         Ok(Self { sweep, scenario: sum.name, members, keys, criteria: sum.criteria, hash })
     }
 
@@ -167,10 +173,11 @@ impl Sum {
     }
 
     /// Which sweep it is.
-    fn hash(&self) -> String {
+    fn hash(&self, limit: Option<Duration>) -> String {
         let files: Vec<String> = self.inputs.iter().map(|path| format!("{:?}", hash_file(path).xxh3_64)).collect();
         let members = std::hash::Hasher::finish(&self.members);
-        let all = format!("{} {members:016x} {}", env!("CARGO_PKG_VERSION"), files.join(" "));
+        let limit = limit.map_or_else(String::new, |limit| format!(" within {limit:?}"));
+        let all = format!("{} {members:016x} {}{limit}", env!("CARGO_PKG_VERSION"), files.join(" "));
         format!("{:016x}", XxHash3_64::oneshot(all.as_bytes()))
     }
 }

@@ -8,7 +8,7 @@ use super::learning_args::{Learn, Theta};
 use super::terminal::Terminal;
 use crate::demonstration::{Dataset, Import, ParameterSource};
 use crate::learning::selection::{cross_validate, reproduction};
-use crate::learning::{self, LearningError, LearningSettings, Skill};
+use crate::learning::{self, LearningError, LearningSettings, ShapingKind, Skill};
 use crate::report::{LearnReport, Outcome, Replaceable, prepare_file, replace_file};
 use crate::scenario::{Diagnostic, LearningOptions, learning_settings};
 
@@ -37,6 +37,10 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
     if let Some(out) = &global.out {
         prepare_file(out, Replaceable::Skill)?;
     }
+    if arguments.init.is_some() && [settings.motion_selection, settings.force_selection].iter().any(|s| s.ridge || s.states.is_some()) {
+        let help = "--init keeps the numbers of states of the first skill and starts from nothing else: give numbers instead of \"auto\"";
+        return Err(Failure::new(Outcome::InvalidInput, [help.to_owned()]));
+    }
     let path = &arguments.dataset;
     let (dataset, notes) = dataset(arguments).map_err(|error| Failure::of_learning(path, &error))?;
     let first = arguments.init.as_deref().map(read_skill).transpose()?;
@@ -61,8 +65,12 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
 
 /// What is about to take long, so that nobody waits before a silent screen; nothing when it will not.
 fn work_ahead(dataset: &Dataset, settings: &LearningSettings, cross_validated: bool) -> String {
-    let models = [("motion", settings.motion_selection), ("force", settings.force_selection)];
-    let chosen = models.into_iter().flat_map(|(model, selection)| {
+    let hidden_markov = settings.shaping == ShapingKind::Phmm;
+    let models = [
+        ("motion", settings.motion_selection, hidden_markov),
+        ("force", settings.force_selection, hidden_markov && !dataset.wrench.is_empty()),
+    ];
+    let chosen = models.into_iter().filter(|(_, _, learned)| *learned).flat_map(|(model, selection, _)| {
         let states = selection.states.map(|search| format!("the {model} model with {} to {} states", search.min, search.max));
         let ridge = selection.ridge.then(|| format!("the {model} model with each ridge"));
         states.into_iter().chain(ridge)
@@ -72,7 +80,8 @@ fn work_ahead(dataset: &Dataset, settings: &LearningSettings, cross_validated: b
     if ahead.is_empty() {
         String::new()
     } else {
-        format!("{} demonstrations; learning {}\n", dataset.demonstrations.len(), ahead.join(", "))
+        let many = dataset.demonstrations.len();
+        format!("{many} demonstration{}; learning {}\n", if many == 1 { "" } else { "s" }, ahead.join(", "))
     }
 }
 

@@ -10,13 +10,17 @@ use super::replay_report::ReplayReport;
 use super::terminal::Terminal;
 use crate::check::{DifferenceKind, ReplayDifference, exact_difference, first_difference};
 use crate::report::Outcome;
-use crate::scenario::{InvalidScenario, LoadOptions, Scenario, Work};
+use crate::scenario::{InvalidScenario, LoadOptions, Scenario, Work, spelled};
 use crate::simulation::{Experiment, TraceDetail, WorldTrace};
 
 /// Runs a run again, or the rest of it from a phase on, and compares every state hash that it left.
 pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -> Outcome {
     let folder = arguments.folder.as_path();
     let stop = |outcome, text: &str| Failure::new(outcome, [text.to_owned()]).tell(terminal);
+    let without_effect = ineffective(arguments.from, global);
+    if !without_effect.is_empty() {
+        return Failure::new(Outcome::Usage, without_effect).tell(terminal);
+    }
     let recorded = match Recorded::read(folder).and_then(|recorded| recorded.from(arguments.from)) {
         Ok(recorded) => recorded,
         Err(text) => return stop(Outcome::InvalidInput, &text),
@@ -52,6 +56,32 @@ pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -
         Format::Json => terminal.json(&report),
     }
     report.outcome
+}
+
+/// What flags would change of phases that are not made again, and of the recording, which is compared as the run left it.
+fn ineffective(from: Option<Phase>, global: &Global) -> Vec<String> {
+    let skipped: &[&str] = match from {
+        None => &[],
+        Some(Phase::Learn) => &["teaching", "demonstrations"],
+        Some(Phase::Execute) => &["teaching", "demonstrations", "learning"],
+    };
+    let phase = from.map_or("", Phase::name);
+    let told = |typed: &String| {
+        let key = spelled(typed.split('=').next().unwrap_or_default());
+        let table = key.split('.').next().unwrap_or_default();
+        if skipped.contains(&table) {
+            Some(format!(
+                "--set {key} has no effect with --from {phase}: what it decides is taken from the folder; leave one of the two out"
+            ))
+        } else {
+            (table == "recording").then(|| format!("--set {key} has no effect: replay compares what the run recorded, as often as it did"))
+        }
+    };
+    let mut faults: Vec<String> = global.set.iter().filter_map(told).collect();
+    if from.is_some() && global.seed.is_some() {
+        faults.push(format!("--seed decides the teaching, which --from {phase} takes from the folder: leave one of the two out"));
+    }
+    faults
 }
 
 /// Finds the very step, by running both scenarios again and keeping whole states where the hashes part. Possible only where the recorded run

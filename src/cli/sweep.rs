@@ -26,6 +26,10 @@ pub(super) fn sweep(arguments: &SweepArguments, global: &Global, terminal: &Term
     if arguments.dry_run {
         return tell_plan(&plan, arguments.shard, terminal);
     }
+    if arguments.shard.size(plan.members) == 0 {
+        let (shard, many) = (arguments.shard, plan.members);
+        terminal.note(&format!("shard {shard} of {many} members has none: there is nothing to run, and its table has no rows\n"));
+    }
     match run(&plan, arguments, global, terminal) {
         Ok((table, summary)) => {
             tell(&plan, arguments.shard, &table, &summary, terminal);
@@ -59,7 +63,7 @@ fn checked(arguments: &SweepArguments, global: &Global, terminal: &Terminal) -> 
         many => {
             terminal.note(&format!("checking {many} members of {path}\n"));
             let ready = |scenario: &Scenario| beyond_the_file(scenario).map(|_| ()).map_err(|(_, reason)| reason);
-            Plan::check(sweep, &ready).map_err(|not_ready| tell_not_ready(&arguments.path, &not_ready, terminal))
+            Plan::check(sweep, global.timeout, &ready).map_err(|not_ready| tell_not_ready(&arguments.path, &not_ready, terminal))
         }
     }
 }

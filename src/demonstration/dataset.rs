@@ -1,6 +1,6 @@
 //! Demonstrations of one skill, with the parameters they were given under.
 
-use super::{DemonstrationError, Fault, ParameterSource, Trajectory};
+use super::{DemonstrationError, Fault, GRIPPER_COLUMN, ParameterSource, QUATERNION_COLUMNS, Trajectory};
 
 /// Named task parameters, e.g. `block_height_m = 0.17`, sorted by name.
 pub type Parameters = Vec<(String, f64)>;
@@ -65,9 +65,18 @@ impl Dataset {
             faults.push(Fault::new("motion", format!("{} columns", self.motion.len()), "1 to 32 columns for the motion model"));
         }
         for (key, list) in [("motion", &self.motion), ("wrench", &self.wrench)] {
+            let beside = list.iter().filter(|name| QUATERNION_COLUMNS.contains(&name.as_str()) || *name == GRIPPER_COLUMN);
+            let beside: Vec<&str> = beside.map(String::as_str).collect();
+            if !beside.is_empty() {
+                let expected = "other columns only: orientation and gripper are learned beside them by themselves";
+                faults.push(Fault::new(key, beside.join(", "), expected));
+            }
             for (i, name) in list.iter().enumerate() {
                 if list[..i].contains(name) {
                     faults.push(Fault::new(key, format!("{name} twice"), "every column once"));
+                }
+                if key == "wrench" && self.motion.contains(name) {
+                    faults.push(Fault::new(key, format!("{name}, which is in motion too"), "every column in one of the two"));
                 }
                 if let Some(unit) = ["_mm", "_cm", "_km", "_deg", "_ms", "_us", "_kn", "_nmm"].iter().find(|unit| name.ends_with(**unit)) {
                     let found = format!("{name}, in {}", &unit[1..]);

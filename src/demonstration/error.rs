@@ -85,14 +85,14 @@ impl DemonstrationError {
 
 /// How many lines of faults are written out; the rest is counted.
 const LINES_SHOWN: usize = 20;
-/// From how many faults on a column of a file is told in one line: one mistake, such as decimal commas, is then in every row.
+/// From how many faults on one mistake in many rows, such as decimal commas, is told in one line.
 const SAME_MISTAKE: usize = 4;
 
 fn listed(faults: &[Fault]) -> String {
-    let (mut groups, mut of_column): (Vec<Vec<&Fault>>, _) = (Vec::new(), BTreeMap::new());
+    let (mut groups, mut of_mistake): (Vec<Vec<&Fault>>, _) = (Vec::new(), BTreeMap::new());
     for fault in faults {
-        let group =
-            if fault.row.is_some() { *of_column.entry((&fault.place, &fault.column)).or_insert(groups.len()) } else { groups.len() };
+        let mistake = (&fault.place, &fault.column, &fault.expected);
+        let group = if fault.row.is_some() { *of_mistake.entry(mistake).or_insert(groups.len()) } else { groups.len() };
         if group == groups.len() {
             groups.push(Vec::new());
         }
@@ -107,12 +107,13 @@ fn listed(faults: &[Fault]) -> String {
     lines.join("\n")
 }
 
-/// Faults of one column of a file: each, or the first and how many more there are.
+/// Faults of one kind in one column or file: each, or the first and how many more there are.
 fn told(group: &[&Fault]) -> Vec<String> {
     match group {
         [first, .., last] if group.len() >= SAME_MISTAKE => {
             let until = last.row.map_or(String::new(), |row| format!(", the last in row {row}"));
-            vec![format!("{first} (and {} more in this column{until})", group.len() - 1)]
+            let of = if first.column.is_some() { "column" } else { "file" };
+            vec![format!("{first} (and {} more such in this {of}{until})", group.len() - 1)]
         }
         _ => group.iter().map(ToString::to_string).collect(),
     }

@@ -1,6 +1,6 @@
 //! Which columns the two models learn: as listed, or by their names.
 
-use super::list::{LIST, List};
+use super::list::List;
 use super::notes::Notes;
 use super::{Demonstration, Fault, GRIPPER_COLUMN, QUATERNION_COLUMNS};
 
@@ -14,12 +14,6 @@ pub(super) fn columns(
 ) -> (Vec<String>, Vec<String>) {
     let wrench = list.wrench.clone();
     if let Some(motion) = &list.motion {
-        let beside = motion.iter().filter(|name| QUATERNION_COLUMNS.contains(&name.as_str()) || *name == GRIPPER_COLUMN);
-        let named: Vec<&str> = beside.map(String::as_str).collect();
-        if !named.is_empty() {
-            let expected = "columns of the position only: orientation and gripper are learned beside the motion by themselves";
-            faults.push(Fault::new(&format!("{LIST}, motion"), named.join(", "), expected));
-        }
         return (motion.clone(), wrench.unwrap_or_default());
     }
     let all = demonstrations.first().map_or(&[][..], |demonstration| demonstration.trajectory.columns());

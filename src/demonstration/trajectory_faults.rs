@@ -25,7 +25,7 @@ impl Trajectory {
             faults.push(Fault::new(place, format!("a table of {rows} x {columns}"), expected));
         }
         if self.times_s().len() < 2 {
-            let found = format!("{} samples", self.times_s().len());
+            let found = if self.times_s().len() == 1 { "1 sample".to_owned() } else { "no samples".to_owned() };
             faults.push(Fault::new(place, found, "at least 2: a demonstration lasts for some time"));
         }
         for (i, name) in self.columns().iter().enumerate() {

@@ -30,7 +30,7 @@ pub struct EndsReport {
 pub(super) struct Ends {
     pub(super) start: LinearMap,
     pub(super) goal: LinearMap,
-    /// `None` when parameters are given: then both ends are regressed on them.
+    /// `None` when there was nothing to choose: parameters are given, or are seen through bumps (RBF).
     pub(super) report: Option<EndsReport>,
 }
 

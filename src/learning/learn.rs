@@ -53,7 +53,7 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
         None => filled_in(&prepared, settings, seed)?,
     };
     let settings = &settings;
-    let mut warnings = warnings::about_data(dataset, &prepared);
+    let mut warnings = warnings::about_data(dataset, &prepared, settings);
     let (motion, force) =
         rayon::join(|| motion_fit(dataset, &prepared, settings, seed, first), || force_fit(dataset, &prepared, settings, seed, first));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);

@@ -21,6 +21,7 @@ mod gripper;
 mod infer;
 mod learn;
 mod linear_map;
+mod magnitudes;
 mod orientation;
 mod parameters;
 pub mod phmm;

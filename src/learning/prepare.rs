@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::dmp::forcing_target;
 use super::phmm::Sequence;
-use super::{LearningError, LearningSettings};
+use super::{LearningError, LearningSettings, magnitudes};
 use crate::demonstration::{Dataset, Demonstration, DemonstrationError, Fault, Trajectory};
 use crate::math::SmoothingDerivative;
 
@@ -45,11 +45,11 @@ pub fn motion_sequences(dataset: &Dataset, settings: &LearningSettings) -> Resul
 
 /// All demonstrations of a dataset.
 pub(super) fn prepare(dataset: &Dataset, settings: &LearningSettings) -> Result<Vec<Prepared>, LearningError> {
-    let short = dataset.demonstrations.iter().filter_map(|d| too_short(d, settings));
-    let faults: Vec<Fault> = short.chain(dataset.demonstrations.iter().flat_map(|d| too_large(d, dataset))).collect();
+    let faults: Vec<Fault> = dataset.demonstrations.iter().filter_map(|d| too_short(d, settings)).collect();
     if !faults.is_empty() {
         return Err(DemonstrationError::Invalid(faults).into());
     }
+    magnitudes::check(dataset)?;
     dataset.demonstrations.iter().map(|d| prepare_one(d, dataset, settings)).collect()
 }
 
@@ -63,22 +63,6 @@ fn too_short(demonstration: &Demonstration, settings: &LearningSettings) -> Opti
     let expected = format!("at least {least}: the forcing term (4) differentiates them twice");
     let found = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
     (samples < least).then(|| Fault { place: demonstration.name.clone(), found, expected, ..Fault::default() })
-}
-
-/// The largest magnitude that is learned from (in the column's own unit): squares and their sums stay finite.
-const LARGEST: f64 = 1e100;
-
-/// The first value of each learned column that is too large, with its sample, counted from 0.
-fn too_large(demonstration: &Demonstration, dataset: &Dataset) -> Vec<Fault> {
-    let trajectory = &demonstration.trajectory;
-    let first = |name: &String| {
-        let values = trajectory.values().column(trajectory.column_index(name)?);
-        let sample = values.iter().position(|value| value.abs() > LARGEST)?;
-        let expected = format!("a magnitude up to {LARGEST:e}, so that it can be squared");
-        let (place, found) = (demonstration.name.clone(), format!("{:e} in sample {sample}", values[sample]));
-        Some(Fault { place, column: Some(name.clone()), found, expected, ..Fault::default() })
-    };
-    dataset.motion.iter().chain(&dataset.wrench).filter_map(first).collect()
 }
 
 impl Prepared {

@@ -3,10 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::cpdmp::Compliance;
+use super::ends::EndRule;
 use super::parameters::mean_and_deviations;
 use super::phmm::{Fit, FitStatus};
 use super::prepare::Prepared;
-use crate::demonstration::Dataset;
+use super::{LearningSettings, ShapingKind};
+use crate::demonstration::{Dataset, ParameterSource};
 use crate::math::{LeastSquares, solve_normal_equations};
 
 /// A gap in a recording counts as one from this length (s).
@@ -14,9 +16,14 @@ const LONG_GAP_S: f64 = 0.5;
 /// Condition number of the parameters' correlations from which they count as collinear (-).
 const LARGE_CONDITION: f64 = 1e6;
 
-/// Parameters that say too little, and gaps in recordings.
-pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared]) -> Vec<String> {
+/// Parameters that say too little, gaps in recordings, and a setting that these data leave without effect.
+pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared], settings: &LearningSettings) -> Vec<String> {
     let mut warnings = Vec::new();
+    let (lwr, told) = (settings.shaping == ShapingKind::Lwr, settings.lwr_ends == EndRule::Regression);
+    if lwr && told && dataset.parameter_source != ParameterSource::Given {
+        let source = dataset.parameter_source.word();
+        warnings.push(format!("lwr_ends has no effect with theta = \"{source}\": the ends follow from the parameters"));
+    }
     if prepared.len() == 1 {
         let unknown = "where people do it differently, and so where to comply, is unknown";
         warnings.push(format!("there is one demonstration only: {unknown}; show more"));
@@ -57,10 +64,14 @@ fn about_parameters(kind: &str, names: &[String], thetas: &[&DVector<f64>]) -> O
     let LeastSquares { rank, condition, .. } = solve_normal_equations(&scatter, &DMatrix::zeros(p, 0));
     let listed = names.join(", ");
     if rank < p {
-        let constant: Vec<&str> = (0..p).filter(|j| scatter[(*j, *j)] == 0.0).map(|j| names[j].as_str()).collect();
-        let consequence = match &constant[..] {
-            [] => format!("they change together (condition {condition:.1e}), and only their combination is learned"),
-            names => format!("{} never changes and has no effect", names.join(", ")),
+        let (constant, changing): (Vec<usize>, Vec<usize>) = (0..p).partition(|j| scatter[(*j, *j)] == 0.0);
+        let named = |which: &[usize]| which.iter().map(|j| names[*j].as_str()).collect::<Vec<_>>().join(", ");
+        let still = format!("{} never changes and has no effect", named(&constant));
+        let together = format!("{} change together, and only their combination is learned", named(&changing));
+        let consequence = match (constant.is_empty(), rank < changing.len()) {
+            (false, true) => format!("{still}; {together}"),
+            (false, false) => still,
+            (true, _) => together,
         };
         return Some(format!("{kind} [{listed}]: the demonstrations vary {rank} of {p} parameters; {consequence}"));
     }

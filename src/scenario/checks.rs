@@ -2,6 +2,7 @@
 
 use super::check_coupling::coupling;
 use super::check_doors::{openings, square_cabinets};
+use super::check_learning::ends_of_no_baseline;
 use super::check_names::{references, unique_names};
 use super::check_planar::planar;
 use super::check_taught::{grid, parameters_are_taught};
@@ -30,6 +31,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
         openings(scenario, teaching, &mut faults);
     }
     joints(scenario, &mut faults);
+    scenario.get("learning").into_iter().for_each(|learning| ends_of_no_baseline(learning, &mut faults));
     coupling(scenario, &mut faults);
     rates(scenario, &mut faults);
     pushes(scenario, &mut faults);

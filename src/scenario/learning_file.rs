@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::build_learning;
+use super::check_learning::ends_of_no_baseline;
 use super::checks::is_typed;
 use super::conform::Conform;
 use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
@@ -79,6 +80,7 @@ fn read(options: &LearningOptions, sources: &mut Sources, faults: &mut Vec<Fault
         let fault = Fault::at(Code::Conflict, space.origin, "`learning.space` is for scenarios");
         faults.push(fault.expected("no such key: the dataset says which columns are learned, or --motion does"));
     }
+    learning.into_iter().for_each(|learning| ends_of_no_baseline(learning, faults));
     Some(filled)
 }
 

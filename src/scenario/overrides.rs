@@ -36,6 +36,11 @@ pub(super) fn put(tree: &mut Node, key: &str, origin: Origin, value: Node) -> Re
     place(tree, &steps, value)
 }
 
+/// The dotted key of an override or a sweep in its one spelling: without blanks around its parts.
+pub fn spelled(key: &str) -> String {
+    key.split('.').map(str::trim).collect::<Vec<_>>().join(".")
+}
+
 /// A text of the command line, typed after the flag `name`.
 pub(super) fn of_command_line(name: &str, typed: &str) -> Source {
     Source { name: name.to_owned(), directory: PathBuf::new(), text: typed.into(), rank: COMMAND_LINE }

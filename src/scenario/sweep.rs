@@ -11,7 +11,7 @@ use super::diagnostic::{InvalidScenario, diagnose};
 use super::fault::{Code, Fault, Severity, tolerate_unknown_keys};
 use super::key::{Key, Kind, Shape};
 use super::load::{LoadOptions, Scenario, fill, layered};
-use super::overrides;
+use super::overrides::{self, spelled};
 use super::roots::Roots;
 use super::schema_sweep::SWEEP;
 use super::source::{Origin, Sources};
@@ -180,7 +180,7 @@ fn add(axes: &mut Vec<Axis>, axis: Axis, sources: &Sources) {
 /// Keys that two entries vary, or that something else decides.
 fn contradictions(axes: &[Axis], options: &LoadOptions) -> Vec<Fault> {
     let keys: Vec<_> = axes.iter().flat_map(|axis| &axis.keys).collect();
-    let set: Vec<&str> = options.set.iter().filter_map(|typed| Some(typed.split_once('=')?.0.trim())).collect();
+    let set: Vec<String> = options.set.iter().filter_map(|typed| Some(spelled(typed.split_once('=')?.0))).collect();
     let mut faults = Vec::new();
     for (index, key) in keys.iter().enumerate() {
         let mut refuse = |message: String, expected: &str| faults.push(Fault::at(Code::Conflict, key.origin, message).expected(expected));
@@ -191,8 +191,14 @@ fn contradictions(axes: &[Axis], options: &LoadOptions) -> Vec<Fault> {
         if keys[..index].iter().any(|earlier| earlier.name == key.name) {
             refuse(format!("`{}` varies twice", key.name), "one entry of the sweep per key");
         }
-        if set.contains(&key.name.as_str()) || (key.name == "robot.urdf" && options.robot.is_some()) {
+        // Repetitions begin at the seed of `--seed`; listed seeds leave it nothing to say.
+        let seeded = key.name == "seed" && options.seed.is_some() && key.is_listed();
+        if set.contains(&key.name) || seeded || (key.name == "robot.urdf" && options.robot.is_some()) {
             refuse(format!("`{}` varies, but a flag gives it one value", key.name), "one of the two");
+        }
+        if let Some(again) = key.repeated() {
+            let fault = Fault::at(Code::Conflict, again.origin, format!("this value of `{}` is listed twice", key.name));
+            faults.push(fault.expected("every value once: --repeat N runs every member with N seeds"));
         }
     }
     faults

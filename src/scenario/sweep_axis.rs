@@ -1,5 +1,6 @@
 //! One direction in which a sweep varies a scenario: keys, and the values that they take together.
 
+use super::overrides::spelled;
 use super::source::Origin;
 use super::tree::{Node, Value};
 use crate::math;
@@ -50,7 +51,7 @@ impl Axis {
     /// One key with a list of values.
     pub fn listed(name: &str, origin: Origin, values: Vec<Node>) -> Self {
         let points = values.len() as u64;
-        Self { keys: vec![AxisKey { name: name.to_owned(), origin, values: Values::Listed(values) }], points }
+        Self { keys: vec![AxisKey { name: spelled(name), origin, values: Values::Listed(values) }], points }
     }
 
     /// Seeds from `first` on.
@@ -74,13 +75,28 @@ impl Axis {
             let share = |slice: u64| (slice as f64 + math::uniform(&mut random, 0.0, 1.0)) / of;
             let numbers = slices.into_iter().map(share).map(|share| range[0] + (range[1] - range[0]) * share).collect();
             let values = Values::Drawn { numbers, origin: entry.node.origin };
-            Some(AxisKey { name: entry.key.clone(), origin: entry.origin, values })
+            Some(AxisKey { name: spelled(&entry.key), origin: entry.origin, values })
         };
         Self { keys: ranges.entries().iter().filter_map(key).collect(), points: count }
     }
 }
 
 impl AxisKey {
+    /// The first value that was listed before: a member that would be run twice.
+    pub fn repeated(&self) -> Option<&Node> {
+        let Values::Listed(values) = &self.values else { return None };
+        values
+            .iter()
+            .enumerate()
+            .find(|(index, node)| values[..*index].iter().any(|earlier| earlier.value == node.value))
+            .map(|(_, node)| node)
+    }
+
+    /// Whether its values were listed, one by one.
+    pub fn is_listed(&self) -> bool {
+        matches!(self.values, Values::Listed(_))
+    }
+
     /// The value at `point`.
     pub fn value(&self, point: u64) -> Node {
         match &self.values {

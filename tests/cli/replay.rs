@@ -85,6 +85,15 @@ fn a_run_that_is_taken_up_goes_on_in_the_same_bits() {
             assert_eq!(parted[key], whole[key], "{key}");
         }
     }
+    for (flags, told) in [
+        (&["--from", "learn", "--set", "teaching . lessons=2"][..], "--set teaching.lessons has no effect with --from learn"),
+        (&["--from", "execute", "--set", "learning.motion.states=5"], "--set learning.motion.states has no effect with --from execute"),
+        (&["--from", "execute", "--seed", "9"], "--seed decides the teaching"),
+        (&["--set", "recording.hash_every_steps=7"], "replay compares what the run recorded"),
+    ] {
+        let said = folder.call(&[&["replay", "run"], flags].concat());
+        assert!(said.code == Some(2) && said.stderr.contains(told), "{flags:?}: {}", said.stderr);
+    }
     let skill = folder.path().join("run/skill.json");
     let text = fs::read_to_string(&skill).expect("a skill");
     fs::write(&skill, text.replacen("\"stiffness\"", "\"stifness\"", 1)).expect("written");

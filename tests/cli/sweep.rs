@@ -149,6 +149,7 @@ fn shards_merge_to_the_whole_and_nothing_else_does() {
         (&["one", "two", "two"], "in another table"),
         (&["one", "other"], "other/sweep.parquet is of `short`, 2 members"),
         (&["a.toml"], "is not a table of a sweep"),
+        (&["one", "merged.parquet"], "cannot be where the whole goes"),
         (&["absent.parquet"], "cannot be read"),
     ] {
         let said = merge(tables);
@@ -179,8 +180,17 @@ fn a_faulty_member_is_told_where_it_was_typed_before_anything_is_written() {
         assert_eq!(said.code, Some(3), "{new}: {}", said.stderr);
         assert!(said.stderr.contains(told) && said.stderr.contains(expected) && said.stderr.contains("b.toml:"), "{new}: {}", said.stderr);
     }
-    let said = folder.call(&["sweep", "a.toml", "--set", "planar.clearance_m=1"]);
-    assert!(said.code == Some(3) && said.stderr.contains("a flag gives it one value"), "{}", said.stderr);
+    for (flags, told) in [
+        (&["--set", "planar.clearance_m=1"][..], "a flag gives it one value"),
+        (&["--set", " planar . clearance_m =1"], "a flag gives it one value"),
+        (&["--grid", "planar. clearance_m=1,2", "--grid", "planar.clearance_m=3"], "varies twice"),
+        (&["--grid", "planar.hand.rate_hz=25,50,25"], "this value of `planar.hand.rate_hz` is listed twice"),
+    ] {
+        let said = folder.call(&[&["sweep", "a.toml"], flags].concat());
+        assert!(said.code == Some(3) && said.stderr.contains(told), "{flags:?}: {}", said.stderr);
+    }
+    let said = folder.call(&["sweep", "bare.toml", "--grid", "seed=1,2", "--seed", "3"]);
+    assert!(said.code == Some(3) && said.stderr.contains("`seed` varies, but a flag gives it one value"), "{}", said.stderr);
     assert_eq!(folder.names(), ["a.toml", "b.toml", "bare.toml"], "nothing was written");
 }
 
@@ -198,6 +208,9 @@ fn a_sweep_of_nothing_or_of_too_much_is_refused() {
         assert_eq!(said.code, Some(code), "{arguments:?}: {}", said.stderr);
         assert!(said.stderr.contains(told), "{arguments:?}: {}", said.stderr);
     }
+    let said = folder.call(&["sweep", "bare.toml", "--repeat", "2", "--shard", "3/3", "--out", "empty"]);
+    assert!(said.code == Some(0) && said.stderr.contains("shard 3/3 of 2 members has none"), "{}", said.stderr);
+    fs::remove_dir_all(folder.path().join("empty")).expect("a table without rows, for merge");
     let said = folder.call(&["sweep", "a.toml", "--dry-run"]);
     assert_eq!((said.code, said.stdout.as_str()), (Some(0), "short: 12 members, all can be run\n"));
     assert_eq!(folder.names(), ["a.toml", "bare.toml"], "nothing was written");
@@ -211,7 +224,8 @@ fn a_folder_goes_on_with_its_own_sweep_only() {
     let before = bytes(&folder, "s/sweep.parquet");
     let again = sweep(&["--repeat", "2"]);
     assert!(again.code == Some(20) && again.stderr.contains("--resume"), "{}", again.stderr);
-    for more in [&["--repeat", "3"][..], &["--repeat", "2", "--seed", "1"], &["--repeat", "2", "--shard", "1/2"]] {
+    let timed = &["--repeat", "2", "--timeout", "60"];
+    for more in [&["--repeat", "3"][..], &["--repeat", "2", "--seed", "1"], &["--repeat", "2", "--shard", "1/2"], timed] {
         let said = sweep(&[&["--resume"], more].concat());
         assert!(said.code == Some(3) && said.stderr.contains("holds another sweep"), "{more:?}: {}", said.stderr);
     }

@@ -13,7 +13,7 @@ use crate::cli::Folder;
 fn csv(samples: usize, value: impl Fn(f64) -> f64) -> String {
     let row = |i: usize| {
         let u = i as f64 / (samples - 1).max(1) as f64;
-        format!("{:.4},{:.6}", 2.0 * u, value(u * u * (3.0 - 2.0 * u)))
+        format!("{:.4},{:?}", 2.0 * u, value(u * u * (3.0 - 2.0 * u)))
     };
     format!("time_s,x_m\n{}\n", (0..samples).map(row).collect::<Vec<_>>().join("\n"))
 }
@@ -62,6 +62,24 @@ fn rows_16_and_17_parameters_that_say_too_little_are_warned_of() {
         assert_eq!(said.code, Some(0), "{}", said.stderr);
         assert!(said.stdout.contains("warning") && said.stdout.contains("theta_m"), "{}", said.stdout);
         assert!(!said.stdout.contains("NaN"), "{}", said.stdout);
+    }
+    let both = files(["{ a = 1, b = 2, c = 5 }", "{ a = 2, b = 4, c = 5 }", "{ a = 3, b = 6, c = 5 }"]).call(&QUICK);
+    let told = "vary 1 of 3 parameters; c never changes and has no effect; a, b change together";
+    assert!(both.stdout.contains(told), "{}", both.stdout);
+}
+
+#[test]
+fn row_14_numbers_that_cannot_be_squared_are_refused_with_their_place() {
+    let tiny = |s: f64| 1e-160 * s;
+    let good = |theta| (csv(50, |s| s), theta);
+    for (files, told) in [
+        ([(csv(50, tiny), "{ h = 1 }"), (csv(50, tiny), "{ h = 2 }")], "column x_m: found a change by 1e-160 over all demonstrations"),
+        ([good("{ h = 1e300 }"), good("{ h = 2 }")], "column theta_m.h: found 1e300, expected a magnitude up to 1e100"),
+        ([good("{ h = 1e-160 }"), good("{ h = 2e-160 }")], "column theta_m.h: found a change by 1e-160 over all demonstrations"),
+    ] {
+        let said = dataset(&files).call(&QUICK);
+        assert_eq!((said.code, said.stdout.as_str()), (Some(3), ""), "{told}: {}", said.stderr);
+        assert!(said.stderr.contains(told), "{told}: {}", said.stderr);
     }
 }
 

@@ -57,7 +57,7 @@ fn every_fault_of_the_list_is_named() {
     assert!(faults("motion = [", &[])[0].contains("dataset.toml"));
     assert!(faults(LIST, &[]).iter().any(|f| f.contains("a.csv")), "a missing file");
     assert!(faults(LIST, &[("a.csv", "")])[0].contains("time_s"));
-    assert!(faults(LIST, &[("a.csv", "time_s,x_m\n0.0,1.0\n")])[0].contains("1 samples"));
+    assert!(faults(LIST, &[("a.csv", "time_s,x_m\n0.0,1.0\n")])[0].contains("1 sample"));
     assert!(faults(&LIST.replace("x_m", "x_mm"), &[("a.csv", "time_s,x_mm\n0,1\n1,2\n")])[0].contains("SI"));
 }
 

@@ -104,7 +104,7 @@ fn the_gradient_of_the_likelihood_is_that_of_the_expected_statistics() {
             let (mut by_mean, mut by_weight, mut by_covariance) = (DVector::zeros(2), DMatrix::zeros(2, 2), DMatrix::zeros(2, 2));
             for (s, e) in sequences.iter().zip(&expectations) {
                 for t in 0..s.samples() {
-                    let gamma = e.responsibilities[t * 3 + i];
+                    let gamma = e.responsibilities()[t * 3 + i];
                     let pull = &inverse * (DVector::from_column_slice(s.sample(t)) - model.mean_at(i, &s.theta));
                     by_mean += gamma * &pull;
                     by_weight += gamma * &pull * s.theta.transpose();
@@ -135,7 +135,7 @@ fn textbook_iteration(model: &Phmm, sequences: &[Sequence]) -> Phmm {
     let (n, p) = (model.states(), model.parameters());
     let mut next = model.clone();
     let all: Vec<_> = sequences.iter().map(|s| (s, expect(model, s).unwrap())).collect();
-    next.initial = DVector::from_fn(n, |i, _| all.iter().map(|(_, e)| e.responsibilities[i]).sum::<f64>() / all.len() as f64);
+    next.initial = DVector::from_fn(n, |i, _| all.iter().map(|(_, e)| e.responsibilities()[i]).sum::<f64>() / all.len() as f64);
     let moves = all.iter().fold(DMatrix::zeros(n, n), |sum, (_, e)| sum + &e.transitions);
     next.transition = DMatrix::from_fn(n, n, |i, j| moves[(i, j)] / moves.row(i).sum());
     for i in 0..n {
@@ -143,7 +143,7 @@ fn textbook_iteration(model: &Phmm, sequences: &[Sequence]) -> Phmm {
         let samples: Vec<_> = all
             .iter()
             .flat_map(|(s, e)| {
-                (0..s.samples()).map(move |t| (e.responsibilities[t * n + i], DVector::from_column_slice(s.sample(t)), s.theta.push(1.0)))
+                (0..s.samples()).map(move |t| (e.responsibilities()[t * n + i], DVector::from_column_slice(s.sample(t)), s.theta.push(1.0)))
             })
             .collect();
         for (gamma, x, omega) in &samples {

@@ -37,7 +37,7 @@ impl Problem<'_> {
         for i in 0..n {
             let (mut count, mut mean, mut phase) = (0.0, DVector::zeros(d + 1), 0.0);
             for t in 0..sequence.samples() {
-                let g = expectation.responsibilities[t * n + i];
+                let g = expectation.responsibilities()[t * n + i];
                 count += g;
                 phase += g * self.part.phases[t];
                 for (m, x) in mean.iter_mut().zip(sequence.sample(t)) {

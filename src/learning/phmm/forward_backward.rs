@@ -22,13 +22,21 @@ pub struct Expectation {
     /// Log-likelihood of the sequence.
     pub log_likelihood: f64,
     /// `gamma`: probability of each state at each sample, row by row (T x N).
-    pub responsibilities: Vec<f64>,
+    pub(super) responsibilities: Vec<f64>,
     /// `sum_t xi_t`: expected number of transitions (N x N).
     pub transitions: DMatrix<f64>,
     /// Outside these states the responsibilities of a sample are 0 (T).
     pub(super) spans: Vec<Span>,
     /// `sum_t ln c_t`; `None` before the scaled recursion has succeeded.
     pub(super) log_scale: Option<f64>,
+}
+
+impl Expectation {
+    /// `gamma`: probability of each state at each sample, row by row (T x N).
+    #[must_use]
+    pub fn responsibilities(&self) -> &[f64] {
+        &self.responsibilities
+    }
 }
 
 /// Runs the expectation step for one sequence. `None` when a covariance is not positive definite.

@@ -6,6 +6,9 @@
 //! product of all `c_s` does not fall below, each of the T N values loses at most [`LOST`] of the likelihood: all together 1e-26 for a million
 //! samples of 100 states. The higher `e`, the fewer states have to be looked at: `L` is taken from the iteration before, with a margin. Where the product does fall below it, the sequence is done again with
 //! [`LEAST_LOG_SCALE`], and where that fails too, in logarithms.
+//!
+//! A transition whose expected count is lost this way (below about 1e-34 of the others) gets probability 0 in the maximisation step, and EM
+//! keeps a 0 from then on. With logarithms it would live on until about 1e-308; neither value is one that data could tell from 0.
 
 use nalgebra::DMatrix;
 
