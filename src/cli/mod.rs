@@ -26,6 +26,7 @@ mod load;
 mod man;
 mod merge;
 mod migrate;
+mod outside;
 mod planar_files;
 mod progress;
 mod recorded_run;
