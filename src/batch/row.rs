@@ -63,7 +63,7 @@ impl Row {
         let cell = |criterion: &CriterionReport| CriterionCell {
             value: finite(criterion.value),
             margin: finite(criterion.margin),
-            unit: criterion.unit.to_owned(),
+            unit: criterion.unit.to_string(),
             passed: criterion.passed,
             as_expected: criterion.as_expected,
         };

@@ -82,7 +82,6 @@ pub enum CriterionKind {
         /// The smallest distance allowed (m).
         min_m: f64,
     },
-    /// The movements of a method stay away from the obstacle. Value: the smallest clearance (m), negative inside. Without such a movement there
     /// A method passes on every side that is asked for, in planar settings where the side is told or not.
     PlanarSidesPassed {
         /// Whose movements.
@@ -94,6 +93,7 @@ pub enum CriterionKind {
         /// Smallest distance to the obstacle with which each side must be passed (m).
         min_m: f64,
     },
+    /// The movements of a method stay away from the obstacle. Value: the smallest clearance (m), negative inside. Without such a movement there
     /// is no answer.
     PlanarClearance {
         /// Whose movements.
@@ -210,6 +210,8 @@ pub struct Criterion {
     pub unit: &'static str,
     /// When it first failed (s), if it failed at a moment.
     pub first_failed_time_s: Option<f64>,
+    /// Why it was not judged at all, if it was not. No verdict depends on it then.
+    pub not_judged: Option<&'static str>,
 }
 
 impl Criterion {
@@ -220,5 +222,10 @@ impl Criterion {
             Expectation::Fail => !self.passed && !self.value.is_nan(),
             Expectation::Report => true,
         }
+    }
+
+    /// Whether it speaks against the run: it was judged, and the answer is not the one that the scenario expects.
+    pub fn fails(&self) -> bool {
+        self.not_judged.is_none() && !self.as_expected()
     }
 }

@@ -42,6 +42,7 @@ impl Answer {
             margin: if upper { self.limit - self.value } else { self.value - self.limit },
             unit: self.unit,
             first_failed_time_s: self.first_failed_time_s,
+            not_judged: None,
         }
     }
 

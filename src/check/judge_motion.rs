@@ -9,8 +9,8 @@ use crate::world::Permission;
 /// Furthest that the tool may stay away from a pose that it is asked for (m): what the controller holds.
 const REACH_M: f64 = 1e-3;
 
-/// Whether the arm can go that way (joint limits, speeds, poses), whether it touches anything that the scene does not allow, and those of
-/// `specs` that geometry can answer: contacts and clearances. The others are left out: they ask about a skill, a person or forces.
+/// Whether the arm can go that way (joint limits, speeds, poses), whether it touches anything that the scene does not allow, and all of
+/// `specs` in their order. Geometry answers those about contacts and clearances; of the others it says why it does not judge them.
 #[must_use]
 pub fn judge_motion(outcome: &MotionOutcome, specs: &[CriterionSpec]) -> Vec<Criterion> {
     let own = |name: &str, answer: Answer, upper: bool| {
@@ -28,22 +28,50 @@ pub fn judge_motion(outcome: &MotionOutcome, specs: &[CriterionSpec]) -> Vec<Cri
         let answer = Answer::at_most(reach.position_error_m, REACH_M, "m");
         criteria.push(own("poses_reached", answer.first_failed(failed(reach.position_error_m > REACH_M, reach.time_s)), true));
     }
-    criteria.extend(specs.iter().filter_map(|spec| answered(outcome, spec)));
+    criteria.extend(specs.iter().map(|spec| answered(outcome, spec)));
     criteria
 }
 
-fn answered(outcome: &MotionOutcome, spec: &CriterionSpec) -> Option<Criterion> {
+/// All of `specs` without an answer, for that reason.
+#[must_use]
+pub fn not_judged(specs: &[CriterionSpec], reason: &'static str) -> Vec<Criterion> {
+    specs.iter().map(|spec| unanswered(spec, reason)).collect()
+}
+
+fn unanswered(spec: &CriterionSpec, reason: &'static str) -> Criterion {
+    let answer = Answer::at_most(f64::NAN, f64::NAN, "1").criterion(spec, true);
+    Criterion { not_judged: Some(reason), ..answer }
+}
+
+fn answered(outcome: &MotionOutcome, spec: &CriterionSpec) -> Criterion {
     match &spec.kind {
         CriterionKind::NoContact { objects } => {
             let touching = || outcome.collisions.iter().filter(|c| belongs(&c.a, objects) != belongs(&c.b, objects));
             // Things that stand on each other belong to the scene, not to the movement.
             let moved = || touching().filter(|contact| contact.permission.as_ref() != Some(&Permission::Objects));
-            Some(Answer::at_most(moved().count() as f64, 0.0, "pairs").first_failed(first_time(moved())).criterion(spec, true))
+            Answer::at_most(moved().count() as f64, 0.0, "pairs").first_failed(first_time(moved())).criterion(spec, true)
         }
-        CriterionKind::NoCollision => Some(no_collision(&outcome.collisions).criterion(spec, true)),
+        CriterionKind::NoCollision => no_collision(&outcome.collisions).criterion(spec, true),
         CriterionKind::Clearance { objects, links, min_m } => {
-            Some(clearance_of(&outcome.clearances, objects, links, *min_m).criterion(spec, false))
+            clearance_of(&outcome.clearances, objects, links, *min_m).criterion(spec, false)
         }
-        _ => None,
+        CriterionKind::ObjectInContainer { .. } | CriterionKind::ObjectAt { .. } | CriterionKind::DoorOpen { .. } => {
+            unanswered(spec, "where objects end is told by a simulation, not by a movement of the arm")
+        }
+        CriterionKind::ArcFollowed { .. } | CriterionKind::HookKept { .. } => {
+            unanswered(spec, "how a door and the arm move together is told by a simulation, not by a movement of the arm")
+        }
+        CriterionKind::ToolForce { .. } | CriterionKind::HumanForce { .. } | CriterionKind::ExpectedForce { .. } => {
+            unanswered(spec, "a movement has no forces")
+        }
+        CriterionKind::GoalReached { .. } | CriterionKind::GripperOverObject { .. } | CriterionKind::ComplianceWindow { .. } => {
+            unanswered(spec, "it asks what a skill commands, which a movement does not tell")
+        }
+        CriterionKind::ReferenceUnmoved { .. } | CriterionKind::GripperUnmoved { .. } => {
+            unanswered(spec, "it asks about the pushes of a person, of which a movement tells nothing")
+        }
+        CriterionKind::PlanarClearance { .. } | CriterionKind::PlanarSidesPassed { .. } | CriterionKind::PlanarCollides { .. } => {
+            unanswered(spec, "it asks about paths in a plane")
+        }
     }
 }

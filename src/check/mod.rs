@@ -16,7 +16,7 @@ mod windows;
 pub use allowed_contact::{AllowedContact, allow};
 pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 pub use judge::judge;
-pub use judge_motion::judge_motion;
+pub use judge_motion::{judge_motion, not_judged};
 pub use judge_planar::judge_planar;
 pub use place::Place;
 pub use planar_trace::planar_traces;

@@ -1,4 +1,4 @@
-//! `cpdmp check` of a movement that is not simulated: a stored run, or a file of samples in the scene of a scenario.
+//! `cpdmp check` of a movement that is not simulated, in the scene of a scenario.
 
 use std::path::Path;
 
@@ -6,14 +6,31 @@ use super::check::faults;
 use super::judged_run::outcome_of;
 use super::progress::Clock;
 use super::terminal::Terminal;
-use crate::check::{allow, judge_motion};
+use crate::check::{CriterionSpec, allow, judge_motion};
 use crate::demonstration::{DemonstrationError, read_trajectory};
 use crate::report::{Checked, InputFault, Outcome, RunReport};
 use crate::scenario::{LoadOptions, Scenario, Work};
-use crate::simulation::{ArmMotion, Experiment, Progress, Setup, SimulationError, check_motion};
+use crate::simulation::{ArmMotion, Experiment, MotionOutcome, Progress, Setup, SimulationError, check_motion};
 
-/// Judges the movement in `samples` in the scene of `scene`; `path` is what the user named.
-pub(super) fn judged(path: &Path, kind: &'static str, samples: &Path, scene: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
+/// Judges the movement in the file `samples` in the scene of `scene`.
+pub(super) fn judged_trajectory(samples: &Path, scene: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
+    judged(samples, "trajectory", scene, options, terminal, |scenario| match &scenario.work {
+        Work::Arm(experiment) => movement(experiment, scenario, &scenario.criteria, samples),
+        Work::Planar(_) => {
+            Err(vec![whole_file(scene, "planar", "it has no arm: a movement can only be judged in the scene of an arm".to_owned())])
+        }
+    })
+}
+
+/// What `report` finds in the scene of `scene`, or the faults that keep it from finding anything; `path` is what the user named.
+pub(super) fn judged(
+    path: &Path,
+    kind: &'static str,
+    scene: &Path,
+    options: &LoadOptions,
+    terminal: &Terminal,
+    report: impl FnOnce(&Scenario) -> Result<RunReport, Vec<InputFault>>,
+) -> Checked {
     let clock = Clock::start();
     let name = path.display().to_string();
     let scenario = match Scenario::load(scene, options) {
@@ -23,32 +40,37 @@ pub(super) fn judged(path: &Path, kind: &'static str, samples: &Path, scene: &Pa
             return Checked::refused(name, kind, faults(&invalid.0), clock.elapsed_s());
         }
     };
-    let Work::Arm(experiment) = &scenario.work else {
-        let fault = whole_file(scene, "planar", "it has no arm: a movement can only be judged in the scene of an arm".to_owned());
-        return Checked::refused(name, kind, vec![fault], clock.elapsed_s());
-    };
-    match report(experiment, &scenario, samples) {
+    match report(&scenario) {
         Ok(mut report) => {
             report.locate(|key| scenario.places.get(key).cloned());
             Checked::judged(name, kind, report, faults(&scenario.warnings), clock.elapsed_s())
         }
-        Err(SimulationError::Demonstrations(error)) => Checked::refused(name, kind, of_data(samples, &error), clock.elapsed_s()),
-        Err(error) if outcome_of(&error) == Outcome::InvalidInput => {
-            Checked::refused(name, kind, vec![whole_file(samples, "trajectory", error.to_string())], clock.elapsed_s())
-        }
-        Err(error) => {
-            let report = RunReport::failed(&experiment.name, experiment.seed, outcome_of(&error), &error.to_string());
-            Checked::judged(name, kind, report, Vec::new(), clock.elapsed_s())
-        }
+        Err(faults) => Checked::refused(name, kind, faults, clock.elapsed_s()),
     }
 }
 
-fn report(experiment: &Experiment, scenario: &Scenario, samples: &Path) -> Result<RunReport, SimulationError> {
+/// The report of the movement in the file `samples`, by `criteria` and what every movement is asked.
+pub(super) fn movement(
+    experiment: &Experiment,
+    scenario: &Scenario,
+    criteria: &[CriterionSpec],
+    samples: &Path,
+) -> Result<RunReport, Vec<InputFault>> {
+    match moved(experiment, samples) {
+        Ok(mut outcome) => {
+            allow(&mut outcome.collisions, &scenario.allowed_contacts);
+            Ok(RunReport::of_motion(experiment, &outcome, &judge_motion(&outcome, criteria)))
+        }
+        Err(SimulationError::Demonstrations(error)) => Err(of_data(samples, &error)),
+        Err(error) if outcome_of(&error) == Outcome::InvalidInput => Err(vec![whole_file(samples, "trajectory", error.to_string())]),
+        Err(error) => Ok(RunReport::failed(&experiment.name, experiment.seed, outcome_of(&error), &error.to_string())),
+    }
+}
+
+fn moved(experiment: &Experiment, samples: &Path) -> Result<MotionOutcome, SimulationError> {
     let setup = Setup::new(experiment)?;
     let motion = ArmMotion::new(&setup, &read_trajectory(samples)?)?;
-    let mut outcome = check_motion(&setup, &motion)?;
-    allow(&mut outcome.collisions, &scenario.allowed_contacts);
-    Ok(RunReport::of_motion(experiment, &outcome, &judge_motion(&outcome, &scenario.criteria)))
+    check_motion(&setup, &motion)
 }
 
 /// Every fault of the samples with its line.
@@ -61,6 +83,7 @@ fn of_data(samples: &Path, error: &DemonstrationError) -> Vec<InputFault> {
     if told.is_empty() { vec![whole_file(samples, "unreadable", error.to_string())] } else { told }
 }
 
-fn whole_file(file: &Path, code: &str, message: String) -> InputFault {
+/// A fault of a file as a whole.
+pub(super) fn whole_file(file: &Path, code: &str, message: String) -> InputFault {
     InputFault { code: code.to_owned(), warning: false, file: file.display().to_string(), line: None, column: None, message }
 }

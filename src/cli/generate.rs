@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::generate_request::request;
 use super::learn::read_skill;
 use super::learning_args::Generate;
+use super::outside::Outside;
 use super::terminal::Terminal;
 use crate::demonstration::{Trajectory, read_trajectory, write_trajectory};
 use crate::learning::{ExecutionSettings, InferenceSettings, LearningError, Skill, generate as generated, infer};
@@ -31,6 +32,11 @@ struct Movement {
     goal: Vec<f64>,
     /// How far outside the demonstrated range, as a fraction of it; none when the range has no width.
     extrapolation: Option<f64>,
+    /// The same of the force model's parameters; none when no wrench was asked for, or the range has no width.
+    force_extrapolation: Option<f64>,
+    /// Variance of the motion for want of demonstrations over the variance that they show (-): from 1 on the movement is more guessed than
+    /// learned. None for the baseline.
+    extrapolation_ratio: Option<f64>,
     warnings: Vec<String>,
     /// Names of the columns, the time first.
     columns: Vec<String>,
@@ -73,10 +79,11 @@ fn moved(arguments: &Generate, out: Option<&Path>, terminal: &Terminal) -> Resul
     }
     let failed = |error: LearningError| Failure::of_learning(&arguments.skill, &error);
     let asked = skill.request(&settings).map_err(failed)?;
-    let ratio = skill.motion.parameters.extrapolation(&asked.theta);
-    if let Some(most) = arguments.deny_extrapolation.filter(|most| ratio > *most) {
-        let message = format!("{}: more than the {most} that --deny-extrapolation allows", beyond(ratio));
-        return Err(Failure::new(Outcome::CriteriaNotMet, [message]));
+    let outside = Outside::of(&skill, &asked, &settings).map_err(failed)?;
+    if let Some(most) = arguments.deny_extrapolation.filter(|most| outside.worst() > *most) {
+        let told =
+            outside.warnings().into_iter().map(|warning| format!("{warning}: more than the {most} that --deny-extrapolation allows"));
+        return Err(Failure::new(Outcome::CriteriaNotMet, told));
     }
     let trajectory = samples(&skill, &settings, arguments).map_err(failed)?;
     if let Some(out) = out {
@@ -96,20 +103,14 @@ fn moved(arguments: &Generate, out: Option<&Path>, terminal: &Terminal) -> Resul
         theta_m: names.zip(asked.theta.iter().copied()).collect(),
         start: asked.start.iter().copied().collect(),
         goal: asked.goal.iter().copied().collect(),
-        extrapolation: Some(ratio).filter(|ratio| ratio.is_finite()),
-        warnings: (ratio > 0.0).then(|| beyond(ratio)).into_iter().collect(),
+        extrapolation: Some(outside.motion).filter(|ratio| ratio.is_finite()),
+        force_extrapolation: outside.force.filter(|ratio| ratio.is_finite()),
+        extrapolation_ratio: outside.uncertainty.filter(|ratio| ratio.is_finite()),
+        warnings: outside.warnings().into_iter().chain(outside.of_bumps(&skill, arguments.covariance)).collect(),
         columns: std::iter::once("time_s".to_owned()).chain(trajectory.columns().iter().cloned()).collect(),
         rows: if in_json { (0..trajectory.samples()).map(row).collect() } else { Vec::new() },
     };
     Ok((movement, csv))
-}
-
-fn beyond(ratio: f64) -> String {
-    if ratio.is_finite() {
-        format!("a parameter lies outside what was demonstrated, by {ratio:.2} of its range")
-    } else {
-        "a parameter lies outside what was demonstrated, where it never varied".to_owned()
-    }
 }
 
 /// The arguments with the parameters that the observed part of a movement shows, each of which `--theta` may replace.

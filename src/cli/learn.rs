@@ -63,6 +63,9 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
     Ok(report)
 }
 
+/// From how many samples on learning takes long.
+const MANY_SAMPLES: f64 = 50_000.0;
+
 /// What is about to take long, so that nobody waits before a silent screen; nothing when it will not.
 fn work_ahead(dataset: &Dataset, settings: &LearningSettings, cross_validated: bool) -> String {
     let hidden_markov = settings.shaping == ShapingKind::Phmm;
@@ -75,8 +78,14 @@ fn work_ahead(dataset: &Dataset, settings: &LearningSettings, cross_validated: b
         let ridge = selection.ridge.then(|| format!("the {model} model with each ridge"));
         states.into_iter().chain(ridge)
     });
+    let samples: f64 = dataset.demonstrations.iter().map(|d| d.trajectory.duration_s() * settings.rate_hz).sum();
+    let many = (samples > MANY_SAMPLES).then(|| {
+        let longest = dataset.demonstrations.iter().map(|d| d.trajectory.duration_s()).fold(0.0, f64::max);
+        let help = "is its time in seconds (a column time_ms is understood)? rate_hz sets the rate";
+        format!("from {samples:.0} samples at {} Hz, since a demonstration lasts {longest:.0} s: {help}", settings.rate_hz)
+    });
     let again = cross_validated.then(|| "everything once more for each parameter value left out".to_owned());
-    let ahead: Vec<String> = chosen.chain(again).collect();
+    let ahead: Vec<String> = many.into_iter().chain(chosen).chain(again).collect();
     if ahead.is_empty() {
         String::new()
     } else {

@@ -122,7 +122,8 @@ pub(super) struct Generate {
     /// Also write std_COLUMN, the standard deviation that the model expects of every motion column
     #[arg(long)]
     pub covariance: bool,
-    /// Fail (exit code 10) when a parameter lies further outside the demonstrated range than this fraction of it
+    /// Fail (exit code 10) when a parameter, or a combination of parameters, lies further outside what was demonstrated than this fraction of its
+    /// range
     #[arg(long, value_name = "RATIO")]
     pub deny_extrapolation: Option<f64>,
 }

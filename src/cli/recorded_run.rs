@@ -12,18 +12,22 @@ use crate::report::{Host, hash_file};
 use crate::scenario::LoadOptions;
 use crate::simulation::WorldTrace;
 
-/// What the folder of a run says about it.
+/// The manifest of a run.
+#[derive(Clone)]
+pub(super) struct RecordedManifest(Value);
+
+/// What the folder of a run says about it, for those who compare with it.
 #[derive(Clone)]
 pub(super) struct Recorded {
-    manifest: Value,
+    manifest: RecordedManifest,
     /// Hash over every state of the run.
     pub state_hash: String,
     /// Hashes on the way, world by world.
     pub traces: Vec<WorldTrace>,
 }
 
-impl Recorded {
-    /// Reads the folder, or says why it holds no run that can be compared with.
+impl RecordedManifest {
+    /// Reads it from the folder, or says why that is no run.
     pub fn read(folder: &Path) -> Result<Self, String> {
         let place = folder.join("manifest.json");
         let text =
@@ -32,7 +36,31 @@ impl Recorded {
         if manifest["format"] != "cpdmp-run" {
             return Err(format!("{} is not the folder of a run", folder.display()));
         }
-        let Some(state_hash) = manifest["state_hash"].as_str().map(str::to_owned) else {
+        Ok(Self(manifest))
+    }
+
+    /// The files that decided the run, as they are found from here, with the hash that each had.
+    fn inputs(&self) -> Vec<(PathBuf, Option<&str>)> {
+        let directory = Path::new(self.0["directory"].as_str().unwrap_or_default());
+        let inputs = self.0["inputs"].as_array().map_or(&[][..], Vec::as_slice);
+        let input = |input: &'_ Value| Some(directory.join(input["path"].as_str()?));
+        inputs.iter().filter_map(|found| Some((input(found)?, found["xxh3_64"].as_str()))).collect()
+    }
+
+    /// The options, with the folders of those files allowed: the run was allowed to use them.
+    pub fn may_use(&self, options: &LoadOptions) -> LoadOptions {
+        let folders = self.inputs().into_iter().filter_map(|(path, _)| Some(path.parent()?.to_path_buf()));
+        let mut allowed = options.clone();
+        allowed.asset_roots.extend(folders);
+        allowed
+    }
+}
+
+impl Recorded {
+    /// Reads the folder, or says why it holds no run that can be compared with.
+    pub fn read(folder: &Path) -> Result<Self, String> {
+        let manifest = RecordedManifest::read(folder)?;
+        let Some(state_hash) = manifest.0["state_hash"].as_str().map(str::to_owned) else {
             return Err(format!("{} holds a run that did not come to its end: there is nothing to compare with", folder.display()));
         };
         let traces = match read_state_log(&folder.join(STATE_LOG)) {
@@ -60,20 +88,9 @@ impl Recorded {
         Ok(Self { state_hash: last_hash(&traces), traces, manifest: self.manifest.clone() })
     }
 
-    /// The files that decided the run, as they are found from here, with the hash that each had.
-    fn inputs(&self) -> Vec<(PathBuf, Option<&str>)> {
-        let directory = Path::new(self.manifest["directory"].as_str().unwrap_or_default());
-        let inputs = self.manifest["inputs"].as_array().map_or(&[][..], Vec::as_slice);
-        let input = |input: &'_ Value| Some(directory.join(input["path"].as_str()?));
-        inputs.iter().filter_map(|found| Some((input(found)?, found["xxh3_64"].as_str()))).collect()
-    }
-
-    /// The options, with the folders of those files allowed: the run was allowed to use them.
+    /// See [`RecordedManifest::may_use`].
     pub fn may_use(&self, options: &LoadOptions) -> LoadOptions {
-        let folders = self.inputs().into_iter().filter_map(|(path, _)| Some(path.parent()?.to_path_buf()));
-        let mut allowed = options.clone();
-        allowed.asset_roots.extend(folders);
-        allowed
+        self.manifest.may_use(options)
     }
 
     /// Why bits may differ, as far as the folder tells.
@@ -83,12 +100,12 @@ impl Recorded {
             reasons.push("flags make it another run than the recorded one".to_owned());
         }
         // The scenario's own files do not matter: what they said is in the folder's scenario.toml.
-        let decisive = self.inputs().into_iter().filter(|(path, _)| path.extension().is_none_or(|extension| extension != "toml"));
+        let decisive = self.manifest.inputs().into_iter().filter(|(path, _)| path.extension().is_none_or(|extension| extension != "toml"));
         let changed = decisive.filter(|(path, hash)| hash_file(path).xxh3_64.as_deref() != *hash);
         reasons.extend(changed.map(|(path, _)| format!("{} has changed since the run", path.display())));
         let text = |value: &Value| value.as_str().unwrap_or("unknown").to_owned();
-        let (version, host) = (text(&self.manifest["version"]), Host::this());
-        let arch = text(&self.manifest["host"]["arch"]);
+        let (version, host) = (text(&self.manifest.0["version"]), Host::this());
+        let arch = text(&self.manifest.0["host"]["arch"]);
         if version != env!("CARGO_PKG_VERSION") || arch != host.arch {
             let this = format!("cpdmp {} on {}", env!("CARGO_PKG_VERSION"), host.arch);
             reasons.push(format!("made by cpdmp {version} on {arch}, repeated by {this}: equal bits are promised for the same program on the same architecture only"));

@@ -52,14 +52,23 @@ impl Dataset {
     }
 }
 
-/// Z-scored positions and unit directions of every demonstration at equal time fractions (K of points x 2 d).
+/// Places and unit directions of every demonstration at equal time fractions (K of points x (1 + 2 d)). Places are seen from each
+/// demonstration's own chord, the line from its start to its goal: how far along it, and how far beside it. Movements from other starts or to
+/// other goals then look alike where they are alike in time.
 fn features(dataset: &Dataset) -> Result<Vec<DMatrix<f64>>, DemonstrationError> {
     let mut positions = Vec::new();
     for demonstration in &dataset.demonstrations {
         let grid = demonstration.trajectory.resampled((POINTS - 1) as f64 / demonstration.trajectory.duration_s())?;
         positions.push(grid.select(&dataset.motion)?);
     }
-    let d = dataset.motion.len();
+    let directions: Vec<DMatrix<f64>> = z_scored(positions.clone()).iter().map(directions).collect();
+    let places = z_scored(from_chords(&z_scored(positions)));
+    Ok(places.iter().zip(&directions).map(|(place, direction)| joined(place, direction)).collect())
+}
+
+/// Every column with mean 0 and deviation 1 over all demonstrations; 0 for one that stands still.
+fn z_scored(mut positions: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
+    let d = positions.first().map_or(0, DMatrix::ncols);
     let count = (positions.len() * POINTS) as f64;
     for j in 0..d {
         let mean = positions.iter().map(|p| p.column(j).sum()).sum::<f64>() / count;
@@ -68,22 +77,50 @@ fn features(dataset: &Dataset) -> Result<Vec<DMatrix<f64>>, DemonstrationError> 
         let scale = if spread > 1e-9 * mean.abs() && spread > 0.0 { 1.0 / spread } else { 0.0 };
         positions.iter_mut().for_each(|p| p.column_mut(j).apply(|x| *x = (*x - mean) * scale));
     }
-    Ok(positions.iter().map(with_directions).collect())
+    positions
+}
+
+/// A chord shorter than this fraction of what its movement spans has no direction to speak of (-).
+const LEAST_CHORD: f64 = 0.3;
+
+/// How far along its chord each place is (1, from 0 to 1) and how far beside it, in spans of the movement (d). Where one of the movements has no chord, since it ends
+/// near its start, places of all are seen from their starts alone.
+fn from_chords(positions: &[DMatrix<f64>]) -> Vec<DMatrix<f64>> {
+    let chord = |p: &DMatrix<f64>| p.row(p.nrows() - 1) - p.row(0);
+    let span = |p: &DMatrix<f64>| p.row_iter().map(|row| (row - p.row(0)).norm()).fold(0.0, f64::max);
+    let straight = positions.iter().all(|p| chord(p).norm() > LEAST_CHORD * span(p));
+    let seen = |p: &DMatrix<f64>| {
+        let (start, chord, span) = (p.row(0).into_owned(), chord(p), span(p));
+        let size = if span > 0.0 { 1.0 / span } else { 0.0 };
+        let mut places = DMatrix::zeros(p.nrows(), p.ncols() + 1);
+        for (t, row) in p.row_iter().enumerate() {
+            let way = row - &start;
+            let along = if straight { way.dot(&chord) / chord.norm_squared() } else { 0.0 };
+            places[(t, 0)] = along;
+            places.view_mut((t, 1), (1, p.ncols())).copy_from(&((way - &chord * along) * size));
+        }
+        places
+    };
+    positions.iter().map(seen).collect()
 }
 
 /// Direction is speed relative to the movement's own mean speed, at most 1 long, so that standing still has none.
-fn with_directions(p: &DMatrix<f64>) -> DMatrix<f64> {
+fn directions(p: &DMatrix<f64>) -> DMatrix<f64> {
     let d = p.ncols();
     let step = |i: usize| p.row((i + 2).min(POINTS - 1)) - p.row(i.saturating_sub(2));
     let mean = (0..POINTS).map(|i| step(i).norm()).sum::<f64>() / POINTS as f64;
-    let mut features = DMatrix::zeros(POINTS, 2 * d);
+    let mut features = DMatrix::zeros(POINTS, d);
     for i in 0..POINTS {
         let v = step(i);
         let scale = if mean > 0.0 { DIRECTION / (v.norm() + 0.3 * mean) } else { 0.0 };
-        features.view_mut((i, 0), (1, d)).copy_from(&p.row(i));
-        features.view_mut((i, d), (1, d)).copy_from(&(v * scale));
+        features.view_mut((i, 0), (1, d)).copy_from(&(v * scale));
     }
     features
+}
+
+/// The columns of both, side by side.
+fn joined(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_columns(&a.column_iter().chain(b.column_iter()).collect::<Vec<_>>())
 }
 
 /// Steps of a path (reference, demonstration): slopes 1, 1/2, 1/3, 2, 3.
@@ -237,5 +274,23 @@ mod tests {
         let aligned = dataset(vec![walked(1.0, 2.0), walked(1.0, 5.0), walked(1.0, 1.0)]).aligned().unwrap();
         assert!(aligned.shifts_s.iter().all(|s| *s < 1e-9), "{:?}", aligned.shifts_s);
         assert!(dataset(vec![walked(1.0, 2.0)]).aligned().unwrap().shifts_s[0] < 1e-9);
+    }
+
+    /// Contract: another start, or another size, of one path in one timing is no other timing, though the places are others.
+    #[test]
+    fn equal_timings_of_moved_and_scaled_paths_are_left_alone() {
+        let moved = |k: usize| {
+            let mut one = walked(1.0, 2.0);
+            let (size, shift) = (1.0 + 0.2 * k as f64, [0.3 * k as f64, -0.2 * (k * k) as f64, 0.0]);
+            let scale = if k < 3 { 1.0 } else { size };
+            let noise = |t: usize, j: usize| 5e-4 * ((t * 37 + j * 11 + k * 101) as f64).sin();
+            let values =
+                DMatrix::from_fn(201, 3, |t, j| scale * one.trajectory.values()[(t, j)] + shift[j] + if j < 2 { noise(t, j) } else { 0.0 });
+            let values = DMatrix::from_fn(201, 3, |t, j| if j == 2 { values[(t, j)].clamp(0.0, 1.0) } else { values[(t, j)] });
+            one.trajectory = Trajectory::new(one.trajectory.times_s().to_vec(), one.trajectory.columns().to_vec(), values).unwrap();
+            one
+        };
+        let aligned = dataset((0..5).map(moved).collect()).aligned().unwrap();
+        assert!(aligned.shifts_s.iter().all(|s| *s < 0.02), "{:?}", aligned.shifts_s);
     }
 }

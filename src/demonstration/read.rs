@@ -143,18 +143,20 @@ impl Reader {
             self.files.insert(file.clone(), pieces);
         }
         let pieces = self.files.get(&file).map_or(&[][..], Vec::as_slice);
-        let asked = |piece: &&Piece| entry.sequence.is_none() || same_label(entry.sequence.as_deref(), piece.label.as_deref());
         let stem = Path::new(&file).with_extension("").to_string_lossy().replace(['/', '\\'], "_");
         let several = pieces.len() > 1;
-        let named = |(i, piece): (usize, &Piece)| {
-            let label = piece.label.clone().or(several.then(|| (i + 1).to_string()));
-            demonstration(&stem, label, piece, entry)
-        };
-        let taken: Vec<Demonstration> = pieces.iter().enumerate().filter(|(_, piece)| asked(piece)).map(named).collect();
-        if taken.is_empty() && !pieces.is_empty() {
-            let labels = pieces.iter().filter_map(|piece| piece.label.clone()).collect::<Vec<_>>().join(", ");
+        // Repetitions without a label are counted from 1.
+        let label = |(i, piece): (usize, &Piece)| piece.label.clone().or(several.then(|| (i + 1).to_string()));
+        let labelled: Vec<(Option<String>, &Piece)> = pieces.iter().enumerate().map(|one| (label(one), one.1)).collect();
+        let asked = |label: &Option<String>| entry.sequence.is_none() || same_label(entry.sequence.as_deref(), label.as_deref());
+        let named = |(label, piece): &(Option<String>, &Piece)| demonstration(&stem, label.clone(), piece, entry);
+        let taken: Vec<Demonstration> = labelled.iter().filter(|(label, _)| asked(label)).map(named).collect();
+        if taken.is_empty() && !labelled.is_empty() {
+            let labels = labelled.iter().filter_map(|(label, _)| label.clone()).collect::<Vec<_>>().join(", ");
             let found = format!("sequence {}, which {file} does not have", entry.sequence.as_deref().unwrap_or_default());
-            self.fault(&entry.key, found, format!("one of [{labels}]"));
+            let expected =
+                if labels.is_empty() { "no sequence: the file holds one repetition".to_owned() } else { format!("one of [{labels}]") };
+            self.fault(&entry.key, found, expected);
         }
         taken
     }

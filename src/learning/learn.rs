@@ -10,7 +10,8 @@ use super::orientation::OrientationSample;
 use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit, refine};
 use super::prepare::{Prepared, prepare};
 use super::{
-    GripperProfile, LearningError, LearningReport, LearningSettings, OrientationProfile, ParameterSpace, ShapingKind, Skill, warnings,
+    GripperProfile, LearningError, LearningReport, LearningSettings, OrientationProfile, ParameterSpace, Preparation, ShapingKind, Skill,
+    warnings,
 };
 use crate::demonstration::Dataset;
 
@@ -76,8 +77,16 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     let fits = [("motion", motion_fit.as_ref()), ("force", force_fit.as_ref())];
     warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max()));
     let theta = prepared.iter().map(|p| &p.theta_m).sum::<DVector<f64>>() / prepared.len() as f64;
-    let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), noise.iter().copied().collect(), warnings)?;
+    let seen = (preparation(&prepared, settings), noise.iter().copied().collect());
+    let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), seen, warnings)?;
     Ok(Learned { skill, report: LearningReport { ends, alignment_shifts_s, motion_choices, force_choices, ..report } })
+}
+
+/// The basis functions of the baseline: no more than half the samples of the shortest demonstration, or nothing would hold them between
+/// samples.
+pub(super) fn lwr_basis(prepared: &[Prepared], settings: &LearningSettings) -> usize {
+    let shortest = prepared.iter().map(|p| p.fractions.len()).min().unwrap_or(0);
+    settings.lwr_basis.min(shortest / 2).max(1)
 }
 
 type MotionFit = (Shaping, Option<Fit>, Compliance);
@@ -93,7 +102,7 @@ fn motion_fit(
     if settings.shaping == ShapingKind::Lwr {
         let phases: Vec<f64> = prepared.iter().flat_map(|p| p.fractions.iter().map(|u| (-settings.alpha * u).exp())).collect();
         let all: Vec<_> = prepared.iter().flat_map(|p| p.forcing.row_iter()).collect();
-        let lwr = Lwr::fit(&phases, &DMatrix::from_rows(&all), settings.lwr_basis, settings.alpha)?;
+        let lwr = Lwr::fit(&phases, &DMatrix::from_rows(&all), lwr_basis(prepared, settings), settings.alpha)?;
         return Ok((Shaping::Lwr(lwr), None, Compliance::stiff(0, d)));
     }
     let sequences = seen_motion(prepared, settings, &motion_features(prepared, settings, seed));
@@ -206,6 +215,12 @@ fn gripper_profile(prepared: &[Prepared], warnings: &mut Vec<String>) -> Option<
     let (profile, warning) = GripperProfile::fit(&openings.collect::<Option<Vec<Vec<f64>>>>()?);
     warnings.extend(warning);
     Some(profile)
+}
+
+fn preparation(prepared: &[Prepared], settings: &LearningSettings) -> Preparation {
+    let windows = prepared.iter().map(|p| p.window_s);
+    let window_s = [windows.clone().fold(f64::INFINITY, f64::min), windows.fold(0.0, f64::max)];
+    Preparation { rate_hz: settings.rate_hz, window_s, degree: settings.smoothing_degree }
 }
 
 /// Mean estimated variance of sensor noise in the forcing term, per column.

@@ -11,8 +11,20 @@ pub struct ParameterSpace {
     pub names: Vec<String>,
     /// Smallest and largest demonstrated value of each (p).
     pub ranges: Vec<[f64; 2]>,
+    /// In which combinations they were demonstrated; none of a single parameter.
+    pub combinations: Vec<Combination>,
     /// What the models see of the parameters.
     pub features: FeatureMap,
+}
+
+/// A direction in the space of the parameters, each counted in widths of its range, and how far the demonstrations reach along it. Where
+/// parameters changed together, one of these is narrow, and values that are all in range can be far outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Combination {
+    /// The direction (p, norm 1): a principal axis of the demonstrated values.
+    pub direction: Vec<f64>,
+    /// Smallest and largest demonstrated value along it (-).
+    pub range: [f64; 2],
 }
 
 impl ParameterSpace {
@@ -23,7 +35,8 @@ impl ParameterSpace {
             let values = thetas.iter().map(|theta| theta[j]);
             [values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max)]
         };
-        Self { ranges: (0..names.len()).map(range).collect(), names, features: FeatureMap::Linear }
+        let ranges: Vec<[f64; 2]> = (0..names.len()).map(range).collect();
+        Self { combinations: combinations(&ranges, thetas), ranges, names, features: FeatureMap::Linear }
     }
 
     /// The same parameters, seen through other features.
@@ -62,15 +75,59 @@ impl ParameterSpace {
     }
 
     /// How far `theta` (p) lies outside the demonstrated range, as a fraction of the range's width (-): 0 inside, 0.33 for 29 cm
-    /// after 17 to 26 cm. The worst parameter counts; outside a range without width it is infinite.
+    /// after 17 to 26 cm. The worst parameter or combination of parameters counts; outside a range without width it is infinite.
     #[must_use]
     pub fn extrapolation(&self, theta: &DVector<f64>) -> f64 {
-        let outside = self.ranges.iter().zip(theta.iter()).map(|([from, to], value)| {
-            let distance = (from - value).max(value - to).max(0.0);
-            if distance == 0.0 { 0.0 } else { distance / (to - from) }
+        let alone = self.ranges.iter().zip(theta.iter()).map(|(range, value)| {
+            let distance = outside(*range, *value);
+            if distance == 0.0 { 0.0 } else { distance / (range[1] - range[0]) }
         });
-        outside.fold(0.0, f64::max)
+        alone.fold(self.combined_extrapolation(theta), f64::max)
     }
+
+    /// The part of [`Self::extrapolation`] that is due to combinations that were not demonstrated, whatever the single values are (-).
+    #[must_use]
+    pub fn combined_extrapolation(&self, theta: &DVector<f64>) -> f64 {
+        let widths = in_widths(&self.ranges, theta);
+        let combined = self.combinations.iter().map(|combination| {
+            let along: f64 = combination.direction.iter().zip(&widths).map(|(v, x)| v * x).sum();
+            let (distance, width) = (outside(combination.range, along), combination.range[1] - combination.range[0]);
+            if distance <= ROUNDING { 0.0 } else { distance / if width <= ROUNDING { 0.0 } else { width } }
+        });
+        combined.fold(0.0, f64::max)
+    }
+}
+
+/// What is rounding along a combination (widths of ranges).
+const ROUNDING: f64 = 1e-9;
+
+fn outside([from, to]: [f64; 2], value: f64) -> f64 {
+    (from - value).max(value - to).max(0.0)
+}
+
+/// Each parameter from its smallest value on, in widths of its range; 0 for one that never varied.
+fn in_widths(ranges: &[[f64; 2]], theta: &DVector<f64>) -> Vec<f64> {
+    let width = |([from, to], value): (&[f64; 2], &f64)| if to > from { (value - from) / (to - from) } else { 0.0 };
+    ranges.iter().zip(theta.iter()).map(width).collect()
+}
+
+/// The principal axes of the demonstrated values and how far those reach along each; none when fewer than two parameters vary.
+fn combinations(ranges: &[[f64; 2]], thetas: &[DVector<f64>]) -> Vec<Combination> {
+    let varying: Vec<usize> = (0..ranges.len()).filter(|j| ranges[*j][1] > ranges[*j][0]).collect();
+    if varying.len() < 2 {
+        return Vec::new();
+    }
+    let rows: Vec<Vec<f64>> = thetas.iter().map(|theta| in_widths(ranges, theta)).collect();
+    let values = DMatrix::from_fn(rows.len(), varying.len(), |k, j| rows[k][varying[j]]);
+    let centred = DMatrix::from_fn(rows.len(), varying.len(), |k, j| values[(k, j)] - values.column(j).mean());
+    let axes = centred.tr_mul(&centred).symmetric_eigen().eigenvectors;
+    let axis = |axis: nalgebra::DVectorView<f64>| {
+        let along = &values * axis;
+        let mut direction = vec![0.0; ranges.len()];
+        varying.iter().zip(axis.iter()).for_each(|(j, v)| direction[*j] = *v);
+        Combination { direction, range: [along.min(), along.max()] }
+    };
+    axes.column_iter().map(|column| axis(column.as_view())).collect()
 }
 
 /// Spread of a parameter relative to its magnitude below which it counts as constant (-): rounding is not variation.

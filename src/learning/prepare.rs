@@ -31,6 +31,8 @@ pub(super) struct Prepared {
     pub(super) trajectory: Trajectory,
     /// Longest time without a sample (s).
     pub(super) largest_gap_s: f64,
+    /// Window over which the movement was smoothed and differentiated (s).
+    pub(super) window_s: f64,
 }
 
 /// What the motion model learns from: phase input and forcing targets (4) of every demonstration.
@@ -105,6 +107,7 @@ fn prepare_one(demonstration: &Demonstration, dataset: &Dataset, settings: &Lear
         noise: forcing.noise,
         trajectory: learned,
         largest_gap_s: trajectory.largest_gap_s(),
+        window_s: forcing.window_s,
     })
 }
 
@@ -113,6 +116,7 @@ struct Forcing {
     start: DVector<f64>,
     goal: DVector<f64>,
     noise: DVector<f64>,
+    window_s: f64,
 }
 
 fn forcing_targets(name: &str, uniform: &Trajectory, dataset: &Dataset, settings: &LearningSettings) -> Result<Forcing, LearningError> {
@@ -128,10 +132,17 @@ fn forcing_targets(name: &str, uniform: &Trajectory, dataset: &Dataset, settings
     let gain = filter.noise_gain_of([1.0, 2.0 / omega, 1.0 / (omega * omega)]);
     let positions = uniform.select(&dataset.motion)?;
     let d = positions.ncols();
-    let mut forcing =
-        Forcing { targets: DMatrix::zeros(samples, d), start: DVector::zeros(d), goal: DVector::zeros(d), noise: DVector::zeros(d) };
+    let zero = DVector::zeros(d);
+    let targets = DMatrix::zeros(samples, d);
+    let window_s = window as f64 * step;
+    let mut forcing = Forcing { targets, start: zero.clone(), goal: zero.clone(), noise: zero, window_s };
     for j in 0..d {
         let raw = positions.column(j).into_owned();
+        if stands_still(raw.as_slice()) {
+            // Nothing forces it; the filter would leave rounding, which models would take for movement.
+            (forcing.start[j], forcing.goal[j]) = (raw[0], raw[0]);
+            continue;
+        }
         let smooth = filter.apply(raw.as_slice())?;
         let (start, goal) = (smooth.value[0], smooth.value[samples - 1]);
         for t in 0..samples {
@@ -145,6 +156,14 @@ fn forcing_targets(name: &str, uniform: &Trajectory, dataset: &Dataset, settings
         (forcing.start[j], forcing.goal[j]) = (start, goal);
     }
     Ok(forcing)
+}
+
+/// Change of a column relative to its magnitude below which it is rounding (-).
+const ROUNDING: f64 = 1e-12;
+
+fn stands_still(values: &[f64]) -> bool {
+    let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
+    most - least <= ROUNDING * least.abs().max(most.abs())
 }
 
 fn median_step_s(trajectory: &Trajectory) -> f64 {

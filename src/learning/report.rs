@@ -41,9 +41,22 @@ pub struct StateReport {
     pub beta: f64,
 }
 
+/// How demonstrations were made ready for learning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Preparation {
+    /// Samples per second that the models learned from (Hz).
+    pub rate_hz: f64,
+    /// Shortest and longest window over which movements were smoothed and differentiated (s): at the rate at which each was recorded.
+    pub window_s: [f64; 2],
+    /// Degree of the polynomials in it.
+    pub degree: usize,
+}
+
 /// What happened while a skill was learned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LearningReport {
+    /// How the demonstrations were resampled and smoothed.
+    pub preparation: Preparation,
     /// The motion model; `None` for the baseline.
     pub motion: Option<FitReport>,
     /// The force model, when there is one.
@@ -76,7 +89,7 @@ impl LearningReport {
         skill: &Skill,
         theta: &DVector<f64>,
         fits: [Option<&Fit>; 2],
-        forcing_noise: Vec<f64>,
+        (preparation, forcing_noise): (Preparation, Vec<f64>),
         warnings: Vec<String>,
     ) -> Result<Self, LearningError> {
         let phi = skill.motion.parameters.features.at(theta);
@@ -102,6 +115,7 @@ impl LearningReport {
         let windows = compliance_windows(&segments, &skill.compliance.beta);
         let [motion, force] = fits.map(|fit| fit.map(FitReport::of));
         Ok(Self {
+            preparation,
             motion,
             force,
             states,

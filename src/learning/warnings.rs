@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::cpdmp::Compliance;
 use super::ends::EndRule;
+use super::learn::lwr_basis;
 use super::parameters::mean_and_deviations;
 use super::phmm::{Fit, FitStatus};
 use super::prepare::Prepared;
@@ -13,8 +14,10 @@ use crate::math::{LeastSquares, solve_normal_equations};
 
 /// A gap in a recording counts as one from this length (s).
 const LONG_GAP_S: f64 = 0.5;
-/// Condition number of the parameters' correlations from which they count as collinear (-).
-const LARGE_CONDITION: f64 = 1e6;
+/// A window counts as widened from this factor on (-): less is rounding to whole samples.
+const WIDENED: f64 = 1.5;
+/// Condition number of the parameters' correlations from which they count as collinear (-): the square of Belsley's index of 30.
+const LARGE_CONDITION: f64 = 900.0;
 
 /// Parameters that say too little, gaps in recordings, and a setting that these data leave without effect.
 pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared], settings: &LearningSettings) -> Vec<String> {
@@ -23,6 +26,13 @@ pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared], settings: &Le
     if lwr && told && dataset.parameter_source != ParameterSource::Given {
         let source = dataset.parameter_source.word();
         warnings.push(format!("lwr_ends has no effect with theta = \"{source}\": the ends follow from the parameters"));
+    }
+    let basis = lwr_basis(prepared, settings);
+    if lwr && basis < settings.lwr_basis {
+        let (asked, rate) = (settings.lwr_basis, settings.rate_hz);
+        warnings.push(format!(
+            "the baseline has {basis} basis functions instead of {asked}: at {rate} Hz there are no more than twice as many samples"
+        ));
     }
     if prepared.len() == 1 {
         let unknown = "where people do it differently, and so where to comply, is unknown";
@@ -38,6 +48,11 @@ pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared], settings: &Le
         }
     }
     for (demonstration, p) in dataset.demonstrations.iter().zip(prepared) {
+        if p.window_s > WIDENED * settings.smoothing_window_s {
+            let (name, window, asked) = (&demonstration.name, p.window_s, settings.smoothing_window_s);
+            let why = "a polynomial takes so many samples";
+            warnings.push(format!("{name}: smoothed over {window:.3} s instead of {asked} s, since {why}: what is faster is lost"));
+        }
         if p.largest_gap_s > LONG_GAP_S {
             warnings.push(format!("{}: {:.2} s without a sample are bridged by a straight line", demonstration.name, p.largest_gap_s));
         }

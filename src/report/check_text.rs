@@ -3,7 +3,7 @@
 use super::check_report::{CheckReport, Checked};
 use super::table::{figure, table};
 use super::text::{BOLD, GREEN, PLAIN, RED};
-use super::{ClearanceReport, CriterionReport, Outcome, verdict};
+use super::{AnswerStatus, ClearanceReport, CriterionReport, Outcome, verdict};
 
 /// The report as text with ANSI colours, which the terminal strips where they are not wanted. `all_contacts` lists those that are allowed too.
 #[must_use]
@@ -15,6 +15,9 @@ pub fn check_text(report: &CheckReport, all_contacts: bool) -> String {
     for check in report.checks.iter().filter(|check| check.outcome != Outcome::Passed) {
         lines.extend(complaint(check));
         lines.push(String::new());
+    }
+    for check in &report.checks {
+        lines.extend(not_judged(check));
     }
     for check in report.checks.iter().filter(|_| all_contacts) {
         lines.extend(allowed_contacts(check));
@@ -54,7 +57,7 @@ fn tightest(criteria: &[CriterionReport]) -> Option<String> {
     let rated = expected.filter_map(|criterion| Some((criterion, relative(criterion)?)));
     let (criterion, _) = rated.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let margin = criterion.margin?;
-    let unit = if criterion.unit == "1" { "" } else { criterion.unit };
+    let unit = if criterion.unit == "1" { "" } else { &*criterion.unit };
     let sign = if margin < 0.0 { "" } else { "+" };
     Some(format!("{} {sign}{} {unit}", criterion.name, figure(margin)).trim_end().to_owned())
 }
@@ -71,11 +74,23 @@ fn complaint(check: &Checked) -> Vec<String> {
     let seed = check.report.as_ref().map_or(String::new(), |report| format!(", seed {}", report.seed));
     let mut lines = vec![format!("{BOLD}{}{PLAIN}{seed}: {RED}{}{PLAIN}", check.path, check.outcome.name().replace('_', " "))];
     lines.extend(check.error().map(|error| format!("  {}", error.replace('\n', "\n  "))));
-    for criterion in check.criteria().filter(|criterion| !criterion.as_expected) {
+    for criterion in check.criteria().filter(|criterion| criterion.fails()) {
         let place = criterion.place.as_ref().map_or(String::new(), |place| format!("{}:{}:{}: ", place.file, place.line, place.column));
         lines.push(format!("  {place}{RED}{}{PLAIN} {}", criterion.name, verdict::reason(criterion)));
     }
     lines.extend(check.refused_contacts().map(|contact| format!("  {}", verdict::contact(contact))));
+    lines
+}
+
+/// The criteria of a check that it did not judge itself: as the run recorded them, or why there is no answer.
+fn not_judged(check: &Checked) -> Vec<String> {
+    let others: Vec<_> = check.criteria().filter(|criterion| criterion.status != AnswerStatus::Judged).collect();
+    if others.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = vec![format!("{BOLD}{}{PLAIN}: not judged here", check.path)];
+    lines.extend(others.iter().map(|criterion| format!("  {}  {}", criterion.name, verdict::numbers(criterion))));
+    lines.push(String::new());
     lines
 }
 

@@ -23,7 +23,7 @@ fn annotations(check: &Checked) -> Vec<String> {
     if let Some(error) = check.report.as_ref().and_then(|report| report.error.as_ref()) {
         lines.push(command("error", &properties(&check.path, None, check.outcome.name()), error));
     }
-    for criterion in check.criteria().filter(|criterion| !criterion.as_expected) {
+    for criterion in check.criteria().filter(|criterion| criterion.fails()) {
         let place = criterion.place.as_ref();
         let file = place.map_or(&check.path, |place| &place.file);
         let properties = properties(file, place.map(|place| (place.line, place.column)), &criterion.name);

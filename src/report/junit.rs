@@ -1,6 +1,6 @@
 //! The report of `check` as JUnit, which every continuous integration reads: a suite per scenario, a case per criterion.
 //!
-//! A criterion that is not as expected is a `failure`; what could not be run at all is an `error`; what is only reported is `skipped`.
+//! A criterion that is not as expected is a `failure`; what could not be run at all is an `error`; what is only reported or cannot be judged is `skipped`.
 
 use std::time::Duration;
 
@@ -56,7 +56,8 @@ fn case(check: &Checked, criterion: &CriterionReport) -> TestCase {
         }
         (false, _) => {
             let mut status = TestCaseStatus::skipped();
-            status.set_message(format!("only reported: {}", verdict::numbers(criterion)));
+            let told = verdict::numbers(criterion);
+            status.set_message(if criterion.not_judged_because.is_some() { told } else { format!("only reported: {told}") });
             status
         }
     };

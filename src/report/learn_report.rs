@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::{ChoiceSection, DataSection, ErrorRow, FitSection, Outcome, SkillSection, ValidationSection};
 use crate::demonstration::Dataset;
 use crate::learning::selection::{CrossValidation, Reproduction};
-use crate::learning::{Learned, LearningError};
+use crate::learning::{Learned, LearningError, Preparation};
 
 /// The whole report; `--format json` prints it on one line.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -29,6 +29,8 @@ pub struct LearnReport {
     pub seed: u64,
     /// What was read.
     pub data: DataSection,
+    /// How it was resampled and smoothed.
+    pub preparation: PreparationSection,
     /// What was learned.
     pub skill: SkillSection,
     /// How the motion model was fitted; none for the baseline.
@@ -49,6 +51,30 @@ pub struct LearnReport {
     pub cross_validation: Option<ValidationSection>,
     /// What a person should know.
     pub warnings: Vec<String>,
+}
+
+/// How demonstrations were resampled and smoothed before learning.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct PreparationSection {
+    /// Samples per second that were learned from (Hz).
+    pub rate_hz: f64,
+    /// Shortest and longest window that smoothed and differentiated a movement (s).
+    pub smoothing_window_s: [f64; 2],
+    /// Degree of the polynomials in it.
+    pub smoothing_degree: usize,
+}
+
+impl PreparationSection {
+    fn of(p: &Preparation) -> Self {
+        Self { rate_hz: p.rate_hz, smoothing_window_s: p.window_s, smoothing_degree: p.degree }
+    }
+
+    /// In one line.
+    pub(super) fn text(&self) -> String {
+        let [shortest, longest] = self.smoothing_window_s.map(|window| format!("{window:.3}"));
+        let window = if shortest == longest { shortest } else { format!("{shortest} to {longest}") };
+        format!("resampled to {} Hz, smoothed over {window} s by polynomials of degree {}", self.rate_hz, self.smoothing_degree)
+    }
 }
 
 impl LearnReport {
@@ -75,6 +101,7 @@ impl LearnReport {
             written: None,
             seed,
             data: DataSection::of(dataset, notes),
+            preparation: PreparationSection::of(&report.preparation),
             skill: SkillSection::of(&learned.skill)?,
             motion_fit: report.motion.as_ref().map(FitSection::of),
             force_fit: report.force.as_ref().map(FitSection::of),

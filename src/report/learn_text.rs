@@ -14,6 +14,7 @@ impl LearnReport {
         let mut lines = vec![heading(&format!("Read {}", self.dataset.display()))];
         lines.extend(self.data.lines());
         lines.extend([String::new(), heading("Learned")]);
+        lines.push(format!("  prepared     {}", self.preparation.text()));
         lines.extend(self.skill.lines());
         for (name, fit) in [("motion fit", &self.motion_fit), ("force fit", &self.force_fit)] {
             lines.extend(fit.as_ref().map(|fit| fit_line(name, fit)));

@@ -18,6 +18,7 @@ mod manifest;
 mod outcome;
 mod output_file;
 mod planar;
+mod recorded_report;
 mod robot_section;
 mod run_folder;
 mod run_report;
@@ -42,11 +43,12 @@ pub use lock::{Lock, LockError, lock};
 pub use manifest::{FileHash, Host, Manifest, hash_file};
 pub use outcome::Outcome;
 pub use output_file::{Replaceable, prepare_file, replace_file, rewrite_file};
+pub use recorded_report::RecordedReport;
 pub use robot_section::{JointLine, RobotSection};
 pub use run_folder::{OutputError, RunFolder, write_file};
 pub use run_report::{
-    ClearanceReport, CollisionReport, ComplianceReport, ComplianceState, CriterionReport, HumanReport, LearningSection, PhaseReport,
-    RunReport, Window,
+    AnswerStatus, ClearanceReport, CollisionReport, ComplianceReport, ComplianceState, CriterionReport, HumanReport, LearningSection,
+    PhaseReport, RunReport, Window,
 };
 pub use run_section::{CriterionLine, FileLine, RunSection};
 pub use schemas::{check_schema, learn_schema, manifest_schema, report_schema, written_schema};

@@ -3,10 +3,11 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// How a command ended. The exit code and the name are an interface: other programs read them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// Everything is as expected.
     Passed,
@@ -141,6 +142,8 @@ mod tests {
             assert_eq!(outcome as usize, index, "ALL is in the order of the enum");
             let twins = Outcome::ALL.iter().filter(|other| other.exit_code() == outcome.exit_code() || other.name() == outcome.name());
             assert_eq!(twins.count(), 1, "{outcome:?}");
+            let read: Outcome = serde_json::from_value(outcome.name().into()).expect("its own name is read");
+            assert_eq!(read, outcome);
         }
     }
 }

@@ -1,7 +1,9 @@
 //! `report.json`: everything a run has to say, as plain data.
 
+use std::borrow::Cow;
+
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{ComparisonReport, Outcome};
 use super::{planar, sections};
@@ -69,14 +71,14 @@ pub struct ParameterReport {
 }
 
 /// One question and its answer.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CriterionReport {
     /// Its name.
     pub name: String,
     /// Whether the outcome of the run depends on it.
     pub required: bool,
     /// The answer that the scenario expects: `pass`, `fail` or `report`.
-    pub expect: &'static str,
+    pub expect: Cow<'static, str>,
     /// Whether the criterion holds.
     pub passed: bool,
     /// Whether that is what the scenario expects.
@@ -86,13 +88,32 @@ pub struct CriterionReport {
     /// The limit it is held against.
     pub limit: Option<f64>,
     /// Unit of value, limit and margin.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// How far the value is on the right side of the limit.
     pub margin: Option<f64>,
     /// When it first failed (s).
     pub first_failed_time_s: Option<f64>,
     /// Where it was typed; `null` for one from the command line.
     pub place: Option<Place>,
+    /// Whose answer it is.
+    #[serde(default)]
+    pub status: AnswerStatus,
+    /// Why it was not judged; `null` when there is an answer.
+    #[serde(default)]
+    pub not_judged_because: Option<String>,
+}
+
+/// Whose answer the answer to a question is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AnswerStatus {
+    /// It was judged for this report.
+    #[default]
+    Judged,
+    /// A stored run gave it when it ran.
+    Recorded,
+    /// There is none, and nothing depends on it.
+    NotJudged,
 }
 
 /// All contacts of one pair.
@@ -211,6 +232,13 @@ pub struct PhaseReport {
     pub wall_s: f64,
 }
 
+impl CriterionReport {
+    /// Whether it speaks against the run.
+    pub fn fails(&self) -> bool {
+        self.required && !self.as_expected
+    }
+}
+
 impl RunReport {
     /// The report of a run that came to its end.
     pub fn finished(experiment: &Experiment, outcome: &RunOutcome, criteria: &[Criterion]) -> Self {
@@ -251,7 +279,7 @@ impl RunReport {
 
     /// The report of a movement that was judged by geometry.
     pub fn of_motion(experiment: &Experiment, outcome: &MotionOutcome, criteria: &[Criterion]) -> Self {
-        let as_expected = criteria.iter().all(Criterion::as_expected);
+        let as_expected = !criteria.iter().any(Criterion::fails);
         let parameters = experiment.parameters.0.iter();
         Self {
             criteria: criteria.iter().map(sections::criterion).collect(),
@@ -269,6 +297,18 @@ impl RunReport {
         let mut report = Self { error: Some(error.to_owned()), state_hash: None, ..Self::finished(experiment, left, &[]) };
         report.end_as(outcome);
         report
+    }
+
+    /// The report of a stored run of which nothing can be judged again.
+    pub fn unjudged(name: &str, seed: u64, criteria: &[Criterion]) -> Self {
+        Self { criteria: criteria.iter().map(sections::criterion).collect(), ..Self::empty(name, seed, Outcome::Passed) }
+    }
+
+    /// The same report with more criteria.
+    #[must_use]
+    pub fn with_criteria(mut self, criteria: &[Criterion]) -> Self {
+        self.criteria.extend(criteria.iter().map(sections::criterion));
+        self
     }
 
     /// The report of a run that could not be finished.

@@ -1,7 +1,8 @@
 //! The sections of a report, each from what the rooms below say.
 
 use super::run_report::{
-    ClearanceReport, CollisionReport, ComplianceReport, ComplianceState, CriterionReport, HumanReport, LearningSection, PhaseReport, Window,
+    AnswerStatus, ClearanceReport, CollisionReport, ComplianceReport, ComplianceState, CriterionReport, HumanReport, LearningSection,
+    PhaseReport, Window,
 };
 use crate::check::{Criterion, Expectation, compliance_windows};
 use crate::learning::LearningReport;
@@ -21,16 +22,18 @@ pub(super) fn criterion(criterion: &Criterion) -> CriterionReport {
     };
     CriterionReport {
         name: criterion.name.clone(),
-        required: criterion.expect != Expectation::Report,
-        expect,
+        required: criterion.expect != Expectation::Report && criterion.not_judged.is_none(),
+        expect: expect.into(),
         passed: criterion.passed,
         as_expected: criterion.as_expected(),
         value: finite(criterion.value),
         limit: finite(criterion.limit),
-        unit: criterion.unit,
+        unit: criterion.unit.into(),
         margin: finite(criterion.margin),
         first_failed_time_s: criterion.first_failed_time_s.and_then(finite),
         place: None,
+        status: if criterion.not_judged.is_some() { AnswerStatus::NotJudged } else { AnswerStatus::Judged },
+        not_judged_because: criterion.not_judged.map(str::to_owned),
     }
 }
 

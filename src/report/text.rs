@@ -72,7 +72,7 @@ fn row(criterion: &CriterionReport) -> [String; 6] {
         (false, true, false) => format!("FAILED{failed_at}"),
         (false, true, true) => "FAILED: holds, but should not".to_owned(),
     };
-    let expected = if criterion.required { criterion.expect } else { "-" };
+    let expected = if criterion.required { &*criterion.expect } else { "-" };
     [criterion.name.clone(), expected.to_owned(), with_unit(criterion.value), with_unit(criterion.limit), margin, verdict]
 }
 

@@ -1,15 +1,19 @@
 //! Why a criterion or a contact is not as it should be, in one sentence that every format shares.
 
 use super::table::figure;
-use super::{CollisionReport, CriterionReport};
+use super::{AnswerStatus, CollisionReport, CriterionReport};
 
-/// The criterion's answer: `0.0187 m, limit 0.005 m, margin +0.0137 m`.
+/// The criterion's answer: `0.0187 m, limit 0.005 m, margin +0.0137 m`; or why there is none.
 pub(super) fn numbers(criterion: &CriterionReport) -> String {
+    if let Some(reason) = &criterion.not_judged_because {
+        return format!("not judged: {reason}");
+    }
     let unit = if criterion.unit == "1" { String::new() } else { format!(" {}", criterion.unit) };
     let with_unit = |number: Option<f64>| number.map_or("no answer".to_owned(), |number| format!("{}{unit}", figure(number)));
     let sign = |number: f64| if number < 0.0 { "" } else { "+" };
     let margin = criterion.margin.map_or(String::new(), |number| format!(", margin {}{}{unit}", sign(number), figure(number)));
-    format!("{}, limit {}{margin}", with_unit(criterion.value), with_unit(criterion.limit))
+    let whose = if criterion.status == AnswerStatus::Recorded { " (as the run recorded it)" } else { "" };
+    format!("{}, limit {}{margin}{whose}", with_unit(criterion.value), with_unit(criterion.limit))
 }
 
 /// Why the criterion is not as expected.

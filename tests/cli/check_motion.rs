@@ -35,6 +35,9 @@ fn a_sheet_that_is_crossed_between_two_samples_is_found() {
     assert_eq!((check["kind"].as_str(), check["outcome"].as_str()), (Some("trajectory"), Some("criteria_not_met")));
     let report = &check["report"];
     assert_eq!(entry(&report["criteria"], &[("name", "contacts_allowed")])["passed"].as_bool(), Some(false));
+    // What geometry cannot answer is told with the reason, and decides nothing.
+    let goal = entry(&report["criteria"], &[("name", "goal"), ("status", "not_judged")]);
+    assert!(goal["required"].as_bool() == Some(false) && goal["not_judged_because"].is_string(), "{goal}");
     let contact = entry(&report["collisions"], &[("a", "left_hand"), ("b", "block.base")]);
     let number = |key: &str| contact[key].as_f64().expect("a number");
     assert!(number("first_time_s") > 0.02 && number("last_time_s") < 0.18 && number("max_depth_m") > 1e-4, "{contact}");
@@ -42,6 +45,7 @@ fn a_sheet_that_is_crossed_between_two_samples_is_found() {
     assert!((y - 0.2).abs() < 0.06, "within the hand's 4 cm of the wall: {contact}");
     let said = folder.call(&["check", "through.csv", "--scene", "a.toml"]);
     assert!(said.stdout.contains("left_hand - block.base"), "{}", said.stdout);
+    assert!(said.stdout.contains("not judged here") && said.stdout.contains("goal  not judged: it asks what a skill"), "{}", said.stdout);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod check;
 mod check_motion;
+mod check_run;
 mod commands;
 mod examples;
 mod generate;

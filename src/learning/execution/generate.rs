@@ -10,8 +10,12 @@ use crate::learning::{LearningError, Skill};
 /// The most samples one generated trajectory may have.
 const MOST_SAMPLES: f64 = 1e7;
 
+/// The longest step of a generated movement, times `omega` (-). At half of it a movement ends within 1e-3 of its size of where it should.
+const LONGEST_STEP: f64 = 0.5;
+
 /// The movement without forces: motion columns, orientation and gripper from the start to `until` times the duration (-, > 0; 1 for the
-/// taught end, more to see it settle), sampled every `dt_s` (s, > 0; adjusted so that the last sample is the end).
+/// taught end, more to see it settle), sampled every `dt_s` (s, > 0; adjusted so that the last sample is the end), and integrated
+/// in finer steps where that is too coarse for the spring.
 ///
 /// # Errors
 /// As [`SkillExecution::new`], or when `dt_s` or `until` are not positive or ask for more than 10 million samples.
@@ -24,6 +28,11 @@ pub fn generate(skill: &Skill, settings: &ExecutionSettings, dt_s: f64, until: f
         return Err(LearningError::Request(format!("{asked}: both must be positive, with fewer than 10 million steps")));
     }
     let dt = length / steps;
+    // Samples may be far apart; what is integrated may not.
+    let parts = (execution.omega() * dt / LONGEST_STEP).ceil().max(1.0);
+    if steps * parts >= MOST_SAMPLES {
+        return Err(LearningError::Request(format!("{until} durations take {:.1e} steps, more than 10 million", steps * parts)));
+    }
     let mut columns = skill.motion.columns.clone();
     if skill.orientation.is_some() {
         columns.extend(QUATERNION_COLUMNS.map(str::to_owned));
@@ -34,7 +43,10 @@ pub fn generate(skill: &Skill, settings: &ExecutionSettings, dt_s: f64, until: f
     let samples = steps as usize + 1;
     let mut cells = Vec::with_capacity(samples * columns.len());
     for i in 0..samples {
-        let state = if i == 0 { execution.state() } else { execution.step(&StepInput::of(dt)) };
+        if i > 0 {
+            (0..parts as usize).for_each(|_| _ = execution.step(&StepInput::of(dt / parts)));
+        }
+        let state = execution.state();
         cells.extend(state.position.iter());
         cells.extend(state.orientation.iter().flat_map(|q| q.coords.iter()));
         cells.extend(state.gripper.map(|g| g.clamp(0.0, 1.0)));

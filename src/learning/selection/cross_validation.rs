@@ -91,13 +91,12 @@ pub fn cross_validate(dataset: &Dataset, settings: &LearningSettings, seed: u64)
 
 fn held_out(demonstration: &Demonstration, fold: usize, skill: &Skill, lwr: &Skill) -> Result<HeldOut, LearningError> {
     let error = |skill: &Skill, settings: &ExecutionSettings| MovementError::of(skill, settings, &demonstration.trajectory);
-    let ends = with_ends(demonstration, skill)?;
     Ok(HeldOut {
         demonstration: demonstration.name.clone(),
         fold,
         extrapolation: skill.extrapolation(&demonstration.theta_m)?,
-        with_ends: error(skill, &ends)?,
-        parameters_alone: error(skill, &with_parameters(demonstration))?,
-        lwr: error(lwr, &ends)?,
+        with_ends: error(skill, &with_ends(demonstration, skill)?)?,
+        parameters_alone: error(skill, &with_parameters(demonstration, skill))?,
+        lwr: error(lwr, &with_ends(demonstration, lwr)?)?,
     })
 }

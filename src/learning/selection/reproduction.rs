@@ -29,10 +29,11 @@ pub fn reproduction(dataset: &Dataset, skill: &Skill) -> Result<Vec<Reproduction
 pub(super) fn with_ends(demonstration: &Demonstration, skill: &Skill) -> Result<ExecutionSettings, LearningError> {
     let positions = demonstration.trajectory.select(&skill.motion.columns)?;
     let row = |t: usize| Some(positions.row(t).iter().copied().collect());
-    Ok(ExecutionSettings { start: row(0), goal: row(positions.nrows() - 1), ..with_parameters(demonstration) })
+    Ok(ExecutionSettings { start: row(0), goal: row(positions.nrows() - 1), ..with_parameters(demonstration, skill) })
 }
 
-/// A demonstration's parameters alone.
-pub(super) fn with_parameters(demonstration: &Demonstration) -> ExecutionSettings {
-    ExecutionSettings { theta_m: demonstration.theta_m.clone(), theta_f: demonstration.theta_f.clone(), ..Default::default() }
+/// A demonstration's parameters alone; those of forces only where the skill has a force model.
+pub(super) fn with_parameters(demonstration: &Demonstration, skill: &Skill) -> ExecutionSettings {
+    let theta_f = skill.force.as_ref().map_or_else(Vec::new, |_| demonstration.theta_f.clone());
+    ExecutionSettings { theta_m: demonstration.theta_m.clone(), theta_f, ..Default::default() }
 }

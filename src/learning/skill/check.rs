@@ -3,9 +3,9 @@
 use super::Skill;
 use super::request::selection;
 use crate::demonstration::ParameterSource;
-use crate::learning::LearningError;
 use crate::learning::cpdmp::Shaping;
 use crate::learning::phmm::StateEvidence;
+use crate::learning::{Combination, LearningError};
 
 /// The most columns of a model, as in datasets.
 const MOST_COLUMNS: usize = 32;
@@ -78,6 +78,11 @@ impl Skill {
             if let Some(j) = parameters.ranges.iter().position(|range| !ordered(range)) {
                 let [from, to] = parameters.ranges[j];
                 return wrong(format!("{place}.parameter_ranges[{j}] is [{from}, {to}], but must be two finite numbers that rise"));
+            }
+            let p = parameters.names.len();
+            let sound = |c: &Combination| c.direction.len() == p && finite(c.direction.iter()) && ordered(&c.range);
+            if let Some(j) = parameters.combinations.iter().position(|combination| !sound(combination)) {
+                return wrong(format!("{place}.parameter_combinations[{j}] is not a direction of {p} numbers with a range that rises"));
             }
         }
         match self.histories.iter().find(|(_, history)| !finite(history.iter())) {

@@ -6,6 +6,9 @@ use super::Skill;
 use crate::demonstration::ParameterSource;
 use crate::learning::{ExecutionSettings, FeatureMap, LearningError};
 
+/// How far a parameter may be from the end that it is, relative to both (-): digits that a person leaves out.
+const SAME: f64 = 1e-3;
+
 /// Parameters, start and goal of one execution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
@@ -29,7 +32,11 @@ impl Skill {
         let goal = checked("goal", settings.goal.as_deref(), d)?;
         let theta = match self.parameter_source {
             ParameterSource::Given => self.motion.parameters.resolve(&settings.theta_m)?,
-            _ if !settings.theta_m.is_empty() => self.motion.parameters.resolve(&settings.theta_m)?,
+            source if !settings.theta_m.is_empty() => {
+                let theta = self.motion.parameters.resolve(&settings.theta_m)?;
+                self.agree(source, &theta, start.as_ref(), goal.as_ref())?;
+                theta
+            }
             source => self.read_off(source, start.as_ref(), goal.as_ref())?,
         };
         let (x0, g) = self.ends_at(&theta);
@@ -42,6 +49,26 @@ impl Skill {
     /// As [`Self::request`].
     pub fn extrapolation_of(&self, settings: &ExecutionSettings) -> Result<f64, LearningError> {
         Ok(self.motion.parameters.extrapolation(&self.request(settings)?.theta))
+    }
+
+    /// Parameters that *are* an end of the movement, given beside that end.
+    fn agree(
+        &self,
+        source: ParameterSource,
+        theta: &DVector<f64>,
+        start: Option<&DVector<f64>>,
+        goal: Option<&DVector<f64>>,
+    ) -> Result<(), LearningError> {
+        let Ok(read) = self.read_off(source, start, goal) else { return Ok(()) };
+        for (name, (given, read)) in self.motion.parameters.names.iter().zip(theta.iter().zip(read.iter())) {
+            if (given - read).abs() > SAME * given.abs().max(read.abs()).max(1.0) {
+                let word = source.word();
+                return Err(LearningError::Request(format!(
+                    "{name} is {given}, but the start and goal that are asked for make it {read}: give one of the two, the parameters are the {word}"
+                )));
+            }
+        }
+        Ok(())
     }
 
     fn read_off(

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Skill;
-use super::schema_parts::{ComplianceFile, FeaturesFile, GripperFile, LwrFile, MapFile, OrientationFile, PhmmFile};
+use super::schema_parts::{CombinationFile, ComplianceFile, FeaturesFile, GripperFile, LwrFile, MapFile, OrientationFile, PhmmFile};
 use crate::demonstration::ParameterSource;
 use crate::learning::cpdmp::{Compliance, ForceModel, MotionModel, Shaping};
 use crate::learning::dmp::PhaseInput;
@@ -52,6 +52,9 @@ struct MotionFile {
     parameters: Vec<String>,
     #[serde(default)]
     parameter_ranges: Option<Vec<[f64; 2]>>,
+    /// Principal axes of the demonstrated parameters, each in widths of its range, and how far they reach; absent where they are not known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    parameter_combinations: Vec<CombinationFile>,
     /// Absent: linear.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     features: Option<FeaturesFile>,
@@ -77,6 +80,9 @@ struct ForceFile {
     parameters: Vec<String>,
     #[serde(default)]
     parameter_ranges: Option<Vec<[f64; 2]>>,
+    /// As of the motion.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    parameter_combinations: Vec<CombinationFile>,
     /// Absent: linear.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     features: Option<FeaturesFile>,
@@ -101,6 +107,7 @@ impl File {
             columns: m.columns.clone(),
             parameters: m.parameters.names.clone(),
             parameter_ranges: Some(m.parameters.ranges.clone()),
+            parameter_combinations: m.parameters.combinations.iter().map(CombinationFile::of).collect(),
             features: FeaturesFile::of(&m.parameters.features),
             start: MapFile::of(&m.start),
             goal: MapFile::of(&m.goal),
@@ -111,6 +118,7 @@ impl File {
             columns: f.columns.clone(),
             parameters: f.parameters.names.clone(),
             parameter_ranges: Some(f.parameters.ranges.clone()),
+            parameter_combinations: f.parameters.combinations.iter().map(CombinationFile::of).collect(),
             features: FeaturesFile::of(&f.parameters.features),
             phase_input: f.phase_input,
             phmm: PhmmFile::of(&f.phmm, &f.evidence, history("force")),
@@ -140,7 +148,7 @@ impl File {
             return Err(LearningError::Skill(format!("parameter_source is {}, but must be one of {known}", self.parameter_source)));
         };
         let m = self.motion;
-        let parameters = space(m.parameters, m.parameter_ranges, m.features);
+        let parameters = space(m.parameters, m.parameter_ranges, m.parameter_combinations, m.features);
         parameters.features.check(parameters.names.len())?;
         let q = parameters.feature_count();
         let mut histories = Vec::new();
@@ -170,7 +178,7 @@ impl File {
         let force = match self.force {
             Some(f) => {
                 histories.push(("force".to_owned(), f.phmm.log_likelihood.clone()));
-                let parameters = space(f.parameters, f.parameter_ranges, f.features);
+                let parameters = space(f.parameters, f.parameter_ranges, f.parameter_combinations, f.features);
                 parameters.features.check(parameters.names.len())?;
                 let evidence = f.phmm.evidence("force.phmm", parameters.feature_count())?;
                 let phmm = f.phmm.into_phmm("force.phmm", parameters.feature_count())?;
@@ -190,7 +198,13 @@ impl File {
 }
 
 /// Parameter ranges may be absent in files of other programs: then everything counts as demonstrated.
-fn space(names: Vec<String>, ranges: Option<Vec<[f64; 2]>>, features: Option<FeaturesFile>) -> ParameterSpace {
+fn space(
+    names: Vec<String>,
+    ranges: Option<Vec<[f64; 2]>>,
+    combinations: Vec<CombinationFile>,
+    features: Option<FeaturesFile>,
+) -> ParameterSpace {
     let ranges = ranges.unwrap_or_else(|| vec![[-f64::MAX, f64::MAX]; names.len()]);
-    ParameterSpace { names, ranges, features: features.map_or(FeatureMap::Linear, FeaturesFile::into_map) }
+    let combinations = combinations.into_iter().map(CombinationFile::into_combination).collect();
+    ParameterSpace { names, ranges, combinations, features: features.map_or(FeatureMap::Linear, FeaturesFile::into_map) }
 }

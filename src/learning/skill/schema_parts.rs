@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::learning::cpdmp::{Compliance, Statistic};
 use crate::learning::dmp::Lwr;
 use crate::learning::phmm::{Phmm, StateEvidence};
-use crate::learning::{FeatureMap, LearningError, LinearMap, OrientationProfile, Standard};
+use crate::learning::{Combination, FeatureMap, LearningError, LinearMap, OrientationProfile, Standard};
 
 type Rows = Vec<Vec<f64>>;
 
@@ -69,6 +69,23 @@ pub(super) struct OrientationFile {
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct GripperFile {
     pub(super) openings: Vec<f64>,
+}
+
+/// A direction in the space of the parameters, and how far the demonstrations reach along it.
+#[derive(Serialize, Deserialize, JsonSchema)]
+pub(super) struct CombinationFile {
+    direction: Vec<f64>,
+    range: [f64; 2],
+}
+
+impl CombinationFile {
+    pub(super) fn of(combination: &Combination) -> Self {
+        Self { direction: combination.direction.clone(), range: combination.range }
+    }
+
+    pub(super) fn into_combination(self) -> Combination {
+        Combination { direction: self.direction, range: self.range }
+    }
 }
 
 /// Functions of the parameters.

@@ -1,0 +1,96 @@
+//! What a stored run said of itself in its `report.json`, and what that means for a report that judges it again.
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::{AnswerStatus, CriterionReport, InputFault, Outcome, RunReport};
+
+/// What a run said of itself.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct RecordedReport {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Why it could not be finished, if it could not.
+    pub error: Option<String>,
+    /// Its questions and their answers; none when it could not be finished.
+    pub criteria: Vec<CriterionReport>,
+}
+
+impl RecordedReport {
+    /// Reads it from the folder of a run.
+    ///
+    /// # Errors
+    /// When `report.json` cannot be read or is no report of a run.
+    pub fn read(folder: &Path) -> Result<Self, InputFault> {
+        let path = folder.join("report.json");
+        let fault = |message: String| InputFault {
+            code: "unreadable".to_owned(),
+            warning: false,
+            file: path.display().to_string(),
+            line: None,
+            column: None,
+            message,
+        };
+        let text = std::fs::read_to_string(&path).map_err(|error| fault(format!("how the run ended cannot be read: {error}")))?;
+        serde_json::from_str(&text).map_err(|error| InputFault {
+            line: Some(error.line()),
+            column: Some(error.column()),
+            ..fault(format!("this is no report of a run: {error}; make the run again"))
+        })
+    }
+
+    /// Whether the run was executed to its end, whatever came of it.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        matches!(self.outcome, Outcome::Passed | Outcome::CriteriaNotMet | Outcome::OutputFailed)
+    }
+}
+
+impl RunReport {
+    /// The report of a stored run that was judged again, with what the run said of itself: where nothing was judged, its own answers stand,
+    /// unless `changed` says that they are those of another scenario. A run is never judged better than it was.
+    #[must_use]
+    pub fn with_record(mut self, record: &RecordedReport, changed: bool) -> Self {
+        for criterion in self.criteria.iter_mut().filter(|criterion| criterion.status == AnswerStatus::NotJudged) {
+            let known = |one: &&CriterionReport| one.name == criterion.name && one.expect == criterion.expect;
+            match record.criteria.iter().find(known) {
+                Some(known) if !changed => *criterion = CriterionReport { status: AnswerStatus::Recorded, ..known.clone() },
+                Some(_) => {
+                    let reason = criterion.not_judged_because.take().unwrap_or_default();
+                    criterion.not_judged_because = Some(format!("{reason}; the run's own answer is that of another scenario"));
+                }
+                None => {}
+            }
+        }
+        self.criteria.push(recorded_criteria(record));
+        if !matches!(record.outcome, Outcome::Passed | Outcome::CriteriaNotMet) {
+            let ended = record.outcome.name().replace('_', " ");
+            let reason = record.error.as_ref().map_or(String::new(), |error| format!(": {error}"));
+            self.error = Some(format!("the run ended with \"{ended}\"{reason}"));
+        }
+        let judged = if self.criteria.iter().any(CriterionReport::fails) { Outcome::CriteriaNotMet } else { Outcome::Passed };
+        self.end_as(judged.max(record.outcome).max(self.outcome));
+        self
+    }
+}
+
+/// How many of the run's own criteria were not as expected when it ran.
+fn recorded_criteria(record: &RecordedReport) -> CriterionReport {
+    let failed = record.criteria.iter().filter(|criterion| criterion.fails()).count();
+    CriterionReport {
+        name: "recorded_criteria".to_owned(),
+        required: true,
+        expect: "pass".into(),
+        passed: failed == 0,
+        as_expected: failed == 0,
+        value: Some(failed as f64),
+        limit: Some(0.0),
+        unit: "criteria".into(),
+        margin: Some(-(failed as f64)),
+        first_failed_time_s: None,
+        place: None,
+        status: AnswerStatus::Recorded,
+        not_judged_because: None,
+    }
+}
