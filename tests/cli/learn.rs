@@ -274,3 +274,129 @@ fn long_work_is_announced() {
     assert!(said.stderr.contains("once more for each parameter value left out"), "{}", said.stderr);
     assert!(!learn(&strokes(), &[]).stderr.contains("learning the"), "what is done at once is not announced");
 }
+
+/// Three bows with a force, a parameter of the motion and one of the force.
+fn with_forces() -> Folder {
+    let mut list = "schema_version = 1\nmotion = [\"x_m\", \"y_m\"]\nwrench = [\"fx_n\"]\n".to_owned();
+    let mut files = Vec::new();
+    for k in 0..4 {
+        let row = |i: usize| {
+            let (u, a) = (i as f64 / 59.0, 0.1 * k as f64);
+            let s = u * u * (3.0 - 2.0 * u);
+            format!("{},{},{},{}\n", 2.0 * u, 0.5 * s, a * (3.1 * u).sin(), (k + 1) as f64 * s)
+        };
+        files.push((format!("{k}.csv"), format!("time_s,x_m,y_m,fx_n\n{}", (0..60).map(row).collect::<String>())));
+        list += &format!("[[demonstration]]\nfile = \"{k}.csv\"\ntheta_m = {{ a = 0.{k} }}\ntheta_f = {{ b = {k} }}\n");
+    }
+    files.push(("dataset.toml".to_owned(), list));
+    Folder::with(&files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect::<Vec<_>>())
+}
+
+/// Contract: parameters of forces are no obstacle where nothing is learned of forces.
+#[test]
+fn parameters_of_forces_stand_beside_a_baseline_and_a_cross_validation() {
+    let folder = with_forces();
+    for flags in [&["--cross-validate"][..], &["--no-wrench", "--cross-validate"], &["--no-wrench"]] {
+        let said = folder.call(&[&["learn", "."], &QUICK[..], flags].concat());
+        assert_eq!(said.code, Some(0), "{flags:?}: {}", said.stderr);
+    }
+    let said = folder.call(&["learn", ".", "--baseline"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+}
+
+/// Contract: values that are all in range, but were never shown together, are outside; and so is a parameter of the force.
+#[test]
+fn combinations_that_were_not_shown_and_parameters_of_forces_count_as_extrapolation() {
+    let rows =
+        |k: usize| -> String { (0..60).map(|i| format!("{},{}\n", i as f64 / 30.0, 0.1 * k as f64 + (i as f64 / 60.0).powi(2))).collect() };
+    let mut list = "schema_version = 1\nmotion = [\"x_m\"]\nwrench = []\n".to_owned();
+    let mut files: Vec<(String, String)> = (0..4).map(|k| (format!("{k}.csv"), format!("time_s,x_m\n{}", rows(k)))).collect();
+    for k in 0..4 {
+        let (a, b) = (0.1 * k as f64, 0.1 * k as f64 + 0.005 * ((k * k) % 3) as f64);
+        list += &format!("[[demonstration]]\nfile = \"{k}.csv\"\ntheta_m = {{ a = {a}, b = {b} }}\n");
+    }
+    files.push(("dataset.toml".to_owned(), list));
+    let folder = Folder::with(&files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect::<Vec<_>>());
+    let said = folder.call(&[&["learn", "."], &QUICK[..], &["--out", "s.json"]].concat());
+    assert!(said.code == Some(0) && said.stdout.contains("nearly collinear"), "{}{}", said.stdout, said.stderr);
+    let near = folder.call(&["generate", "s.json", "--theta", "a=0.15", "--theta", "b=0.152", "--deny-extrapolation", "0"]);
+    assert_eq!(near.code, Some(0), "{}", near.stderr);
+    let far = folder.call(&["generate", "s.json", "--theta", "a=0", "--theta", "b=0.3", "--deny-extrapolation", "1"]);
+    assert!(far.code == Some(10) && far.stderr.contains("combined with others as was not demonstrated"), "{}", far.stderr);
+
+    let folder = with_forces();
+    assert_eq!(folder.call(&[&["learn", "."], &QUICK[..], &["--out", "s.json"]].concat()).code, Some(0));
+    let asked = ["generate", "s.json", "--theta", "a=0.1", "--theta", "b=50", "--expected-wrench", "--deny-extrapolation", "1"];
+    let said = folder.call(&asked);
+    assert!(said.code == Some(10) && said.stderr.contains("a parameter of the force lies outside"), "{}", said.stderr);
+}
+
+/// Contract: the end is reached and the method matters little, however far apart the samples that are written.
+#[test]
+fn samples_far_apart_and_short_durations_end_where_they_should() {
+    let folder = strokes();
+    assert_eq!(learn(&folder, &["--theta", "start", "--out", "s.json"]).code, Some(0));
+    let end = |more: &[&str]| -> Vec<f64> {
+        let said = folder.call(&[&["generate", "s.json", "--start", "x_m=0.1"], more].concat());
+        let last = said.stdout.lines().last().unwrap_or_else(|| panic!("{}", said.stderr));
+        last.split(',').skip(1).map(|cell| cell.parse().expect("a number")).collect()
+    };
+    let fine = end(&["--dt", "0.001", "--until", "1.5"]);
+    for more in [
+        &["--duration", "0.005", "--until", "1.5"][..],
+        &["--dt", "0.5", "--until", "1.5"],
+        &["--dt", "0.1", "--integrator", "rk4", "--until", "1.5"],
+    ] {
+        let worst = end(more).iter().zip(&fine).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 2e-3, "{more:?}: {worst} m off");
+    }
+}
+
+/// Contract: a column that stands still changes nothing about the others.
+#[test]
+fn a_constant_column_leaves_the_others_as_they_are() {
+    let text = strokes_csv(6);
+    let mut lines = text.lines();
+    let mut wider = format!("{},q_rad,r_rad\n", lines.next().expect("a header"));
+    lines.for_each(|line| wider += &format!("{line},0.7,-1.3\n"));
+    let rms = |csv: &str| {
+        let folder = Folder::with(&[("strokes.csv", csv.as_bytes())]);
+        let report = json(&learn(&folder, &["--theta", "start", "--cross-validate", "--format", "json"]));
+        report["cross_validation"]["with_ends"]["max"].as_f64().expect("an error")
+    };
+    let (alone, beside) = (rms(&text), rms(&wider));
+    assert!((beside / alone - 1.0).abs() < 0.2, "{alone} m alone, {beside} m beside two columns that stand still");
+}
+
+#[test]
+fn how_demonstrations_were_prepared_is_told() {
+    let said = learn(&strokes(), &[]);
+    assert!(said.stdout.contains("resampled to 25 Hz, smoothed over") && said.stdout.contains("degree 4"), "{}", said.stdout);
+    let report = json(&learn(&strokes(), &["--format", "json"]));
+    assert_eq!((report["preparation"]["rate_hz"].as_f64(), report["preparation"]["smoothing_degree"].as_u64()), (Some(25.0), Some(4)));
+    let rows: String = (0..12).map(|i| format!("{},{}\n", i as f64 * 0.5, (i as f64 / 4.0).sin())).collect();
+    let said = learn(&Folder::with(&[("strokes.csv", format!("time_s,x_m\n{rows}").as_bytes())]), &[]);
+    assert!(said.stdout.contains("smoothed over 3.500 s instead of 0.5 s"), "{}{}", said.stdout, said.stderr);
+}
+
+#[test]
+fn repetitions_told_apart_by_time_are_chosen_by_number_and_an_end_is_given_once() {
+    let rows: String = (0..3)
+        .flat_map(|k| (0..40).map(move |i| format!("{},{}\n", i as f64 * 0.05, 0.1 * k as f64 + (i as f64 / 40.0).powi(2))))
+        .collect();
+    let list = |sequence: u32| {
+        format!("schema_version = 1\n[[demonstration]]\nfile = \"all.csv\"\nsequence = {sequence}\ntheta_m = {{ a = 1.0 }}\n")
+    };
+    let folder =
+        |sequence| Folder::with(&[("all.csv", format!("time_s,x_m\n{rows}").as_bytes()), ("dataset.toml", list(sequence).as_bytes())]);
+    let said = folder(2).call(&[&["learn", "."], &QUICK[..]].concat());
+    assert!(said.code == Some(0) && said.stdout.contains("all_2"), "{}{}", said.stdout, said.stderr);
+    let said = folder(4).call(&[&["learn", "."], &QUICK[..]].concat());
+    assert!(said.code == Some(3) && said.stderr.contains("expected one of [1, 2, 3]"), "{}", said.stderr);
+
+    let folder = strokes();
+    assert_eq!(learn(&folder, &["--theta", "start", "--out", "s.json"]).code, Some(0));
+    let theta = ["--theta", "start_x_m=0.05", "--theta", "start_y_m=0"];
+    let said = folder.call(&[&["generate", "s.json"], &theta[..], &["--start", "x_m=0.2"]].concat());
+    assert!(said.code == Some(2) && said.stderr.contains("give one of the two"), "{}", said.stderr);
+}

@@ -113,7 +113,7 @@ fn a_run_that_is_taken_up_goes_on_in_the_same_bits() {
 #[test]
 fn a_run_is_taken_up_in_the_middle() {
     let folder = ran(&[("a.toml", format!("{GOOD}{PUSHED}").as_bytes())], &["--set", "recording.snapshot_every_steps=900"]);
-    for (time, step) in [("0.9", 900), ("2.5", 1800), ("2.7", 2700), ("99", 3600)] {
+    for (time, step) in [("0.9", 900), ("2.5", 1800), ("2.7", 2700), ("99", 5400)] {
         let (code, same) = told(&folder, &["--from-time", time]);
         assert_eq!((code, same["from_step"].as_u64(), same["from"].as_str()), (Some(0), Some(step), Some("execute")), "{same}");
         assert!(same["hashes"].as_u64().is_some_and(|hashes| hashes > 0), "{same}");
