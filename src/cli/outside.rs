@@ -1,65 +1,95 @@
 //! How far what is asked of a skill lies outside what was demonstrated.
 
+use nalgebra::DVector;
+
 use crate::learning::{ExecutionSettings, FeatureMap, LearningError, ParameterSpace, Request, Skill};
+
+/// How far outside parameters are, as fractions of ranges (-).
+#[derive(Clone, Copy)]
+struct Beyond {
+    /// The worst of them by itself.
+    single: f64,
+    /// The worst of their combinations.
+    combined: f64,
+}
 
 /// How far outside a request is.
 pub(super) struct Outside {
-    /// Of the motion's parameters, as a fraction of their range (-).
-    pub motion: f64,
-    /// Of the force's, when a wrench is asked for (-).
-    pub force: Option<f64>,
+    motion: Beyond,
+    /// When a wrench is asked for.
+    force: Option<Beyond>,
     /// Variance for want of demonstrations over the variance that they show (-); none for the baseline.
     pub uncertainty: Option<f64>,
-    /// Whether the worst of the motion, of the force, is a combination rather than a value.
-    combined: [bool; 2],
 }
 
 impl Outside {
     /// Of what is asked of `skill`.
     pub fn of(skill: &Skill, asked: &Request, settings: &ExecutionSettings) -> Result<Self, LearningError> {
-        let of = |space: &ParameterSpace, theta| {
-            let (all, combined) = (space.extrapolation(theta), space.combined_extrapolation(theta));
-            (all, combined > 0.0 && combined >= all)
-        };
-        let (motion, motion_combined) = of(&skill.motion.parameters, &asked.theta);
-        let force = match &skill.force {
-            Some(model) => Some(of(&model.parameters, &model.parameters.resolve(&settings.theta_f)?)),
-            None => None,
-        };
-        let combined = [motion_combined, force.is_some_and(|(_, combined)| combined)];
-        Ok(Self { motion, force: force.map(|(ratio, _)| ratio), uncertainty: skill.motion.extrapolation_ratio(&asked.theta)?, combined })
+        let motion = Beyond::of(&skill.motion.parameters, &asked.theta);
+        let force = skill.force.as_ref().map(|model| Ok(Beyond::of(&model.parameters, &model.parameters.resolve(&settings.theta_f)?)));
+        Ok(Self { motion, force: force.transpose()?, uncertainty: skill.motion.extrapolation_ratio(&asked.theta)? })
+    }
+
+    /// Of the motion's parameters.
+    pub fn motion(&self) -> f64 {
+        self.motion.worst()
+    }
+
+    /// Of the force's, when a wrench is asked for.
+    pub fn force(&self) -> Option<f64> {
+        self.force.map(Beyond::worst)
     }
 
     /// The larger of the two.
     pub fn worst(&self) -> f64 {
-        self.motion.max(self.force.unwrap_or(0.0))
+        self.motion().max(self.force().unwrap_or(0.0))
     }
 
     /// What a person should know about it.
     pub fn warnings(&self) -> Vec<String> {
-        let guessed = self.uncertainty.filter(|ratio| *ratio > 1.0 && self.motion > 0.0);
-        let guessed = guessed.map_or_else(String::new, |ratio| {
+        let guessed = self.uncertainty.filter(|ratio| *ratio > 1.0).map_or_else(String::new, |ratio| {
             format!("; its uncertainty for want of demonstrations is {} times the spread that they show", short(ratio.sqrt()))
         });
-        let motion = (self.motion > 0.0).then(|| beyond("parameter", self.motion, self.combined[0]) + &guessed);
-        let force = self.force.filter(|ratio| *ratio > 0.0).map(|ratio| beyond("parameter of the force", ratio, self.combined[1]));
+        let motion = self.motion.told("parameter").map(|told| told + &guessed);
+        let force = self.force.and_then(|beyond| beyond.told("parameter of the force"));
         motion.into_iter().chain(force).collect()
     }
 
     /// Bumps vanish far from the demonstrations, and what is unknown there does not show in the covariance.
     pub fn of_bumps(&self, skill: &Skill, covariance: bool) -> Option<String> {
         let bumps = matches!(skill.motion.parameters.features, FeatureMap::Rbf { .. });
-        (bumps && covariance && self.motion > 0.0)
+        (bumps && covariance && self.motion() > 0.0)
             .then(|| "std_… stands still where the bumps (rbf) have vanished: out there it says nothing about the movement".to_owned())
     }
 }
 
-fn beyond(what: &str, ratio: f64, combined: bool) -> String {
-    match (ratio.is_finite(), combined) {
-        (true, false) => format!("a {what} lies outside what was demonstrated, by {} of its range", short(ratio)),
-        (false, false) => format!("a {what} lies outside what was demonstrated, where it never varied"),
-        (true, true) => format!("a {what} is combined with others as was not demonstrated, by {} of what they vary together", short(ratio)),
-        (false, true) => format!("a {what} is combined with others as was not demonstrated, where they always changed together"),
+impl Beyond {
+    fn of(space: &ParameterSpace, theta: &DVector<f64>) -> Self {
+        Self { single: space.single_extrapolation(theta), combined: space.combined_extrapolation(theta) }
+    }
+
+    fn worst(self) -> f64 {
+        self.single.max(self.combined)
+    }
+
+    /// The single value first: it is what a person sees at once. Nothing for what is inside.
+    fn told(self, what: &str) -> Option<String> {
+        let alone = match self.single {
+            0.0 => None,
+            ratio if ratio.is_finite() => Some(format!("a {what} lies outside what was demonstrated, by {} of its range", short(ratio))),
+            _ => Some(format!("a {what} lies outside what was demonstrated, where it never varied")),
+        };
+        let combined = (self.combined > self.single).then(|| match self.combined {
+            ratio if ratio.is_finite() => {
+                format!("combined with others as was not demonstrated, by {} of what they vary together", short(ratio))
+            }
+            _ => "combined with others as was not demonstrated, where they always changed together".to_owned(),
+        });
+        match (alone, combined) {
+            (Some(alone), Some(combined)) => Some(format!("{alone}, and is {combined}")),
+            (None, Some(combined)) => Some(format!("a {what} is {combined}")),
+            (alone, None) => alone,
+        }
     }
 }
 

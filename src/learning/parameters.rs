@@ -78,11 +78,17 @@ impl ParameterSpace {
     /// after 17 to 26 cm. The worst parameter or combination of parameters counts; outside a range without width it is infinite.
     #[must_use]
     pub fn extrapolation(&self, theta: &DVector<f64>) -> f64 {
+        self.single_extrapolation(theta).max(self.combined_extrapolation(theta))
+    }
+
+    /// The part of [`Self::extrapolation`] that is due to single values, whatever is combined with them (-).
+    #[must_use]
+    pub fn single_extrapolation(&self, theta: &DVector<f64>) -> f64 {
         let alone = self.ranges.iter().zip(theta.iter()).map(|(range, value)| {
             let distance = outside(*range, *value);
             if distance == 0.0 { 0.0 } else { distance / (range[1] - range[0]) }
         });
-        alone.fold(self.combined_extrapolation(theta), f64::max)
+        alone.fold(0.0, f64::max)
     }
 
     /// The part of [`Self::extrapolation`] that is due to combinations that were not demonstrated, whatever the single values are (-).

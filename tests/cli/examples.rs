@@ -56,6 +56,7 @@ fn workplace() -> Folder {
         ("time_s = 4.0", "time_s = 2.0"),
     ];
     let scenario = changes.iter().fold(GOOD.to_owned(), |text, (old, new)| text.replace(old, new));
+    let scenario = scenario + "\n[recording]\nsnapshot_every_steps = 500\n";
     let joints = LEFT_POSTURE.map(|angle| angle.to_string()).join(",");
     let path = format!("time_s,{}\n0,{joints}\n1,{joints}\n", [1, 2, 3, 4, 5, 6, 7].map(|joint| format!("q{joint}_rad")).join(","));
     let folder = Folder::with(&[
