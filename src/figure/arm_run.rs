@@ -39,7 +39,7 @@ pub struct ArmRun<'a> {
     pub(super) duration_s: f64,
     /// What it planned.
     plan: Trajectory,
-    /// Its states in the setting; none for the baseline.
+    /// Its states in the setting, which comply as the coupling says; none for the baseline.
     pub(super) states: Vec<TaskSpaceState>,
     /// Ways on which doors of the scene lead their handles in use (m, world).
     pub(super) arcs: Vec<Vec<Point3<f64>>>,
@@ -61,7 +61,12 @@ impl<'a> ArmRun<'a> {
     ) -> Result<Self, LearningError> {
         let asked_s = question.duration_s.unwrap_or(skill.motion.duration_s);
         let plan = generate(skill, &question, asked_s / DRAWN_SAMPLES as f64, 1.0)?;
-        let states = task_space_states(skill, &question)?;
+        let mut states = task_space_states(skill, &question)?;
+        let learned: Vec<f64> = states.iter().map(|state| state.beta).collect();
+        if !learned.is_empty() {
+            // What a state does about forces is up to the coupling, which may or may not do as was learned.
+            states.iter_mut().zip(question.coupling.beta(&learned)?).for_each(|(state, beta)| state.beta = beta);
+        }
         let duration_s = skill_duration_s(steps).unwrap_or_else(|| plan.duration_s());
         Ok(Self { name, steps, skill, dataset, learning, question, duration_s, plan, states, arcs: Vec::new() })
     }
@@ -111,7 +116,7 @@ impl<'a> ArmRun<'a> {
 /// The arc of a cabinet's handle in use about the hinge, from the closed door to the open one (m, world).
 fn handle_arc(object: &Object, objects: &[Object], parameters: &Parameters) -> Option<Vec<Point3<f64>>> {
     let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
-    let hinge = object.pose(parameters, support_height_m(objects, parameters));
+    let hinge = object.pose(parameters, support_height_m(objects, object, parameters));
     let handle = cabinet.handle(hinge.translation.y, parameters);
     let opening = |k: usize| cabinet.opening_max_rad * k as f64 / (ARC_POINTS - 1) as f64;
     Some((0..ARC_POINTS).map(|k| hinge * (door_turn(opening(k)) * handle)).collect())

@@ -9,11 +9,10 @@ use super::{Object, Parameters, convert, fixed_parts, object_parts, support_heig
 /// How many of `points` an object of a scene at its start hides from an eye at `from` (m, world). The robot hides nothing.
 #[must_use]
 pub fn hidden_count(objects: &[Object], parameters: &Parameters, from: &Point3<f64>, points: &[Point3<f64>]) -> usize {
-    let support = support_height_m(objects, parameters);
     let shapes: Vec<_> = objects
         .iter()
         .flat_map(|object| {
-            let pose = convert::pose(&object.pose(parameters, support));
+            let pose = convert::pose(&object.pose(parameters, support_height_m(objects, object, parameters)));
             let parts = object_parts(object, parameters).into_iter().chain(fixed_parts(object));
             parts.map(move |part| (pose, collider(&part).build()))
         })
