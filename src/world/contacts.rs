@@ -1,7 +1,7 @@
 //! Keeps book of everything that touches, at every step.
 
 use nalgebra::{Point3, Vector3};
-use rapier3d_f64::prelude::{ColliderHandle, ContactData, ContactManifold, ContactPair, PhysicsWorld};
+use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
 
 use super::convert;
 use super::gap::Gap;
@@ -54,7 +54,7 @@ pub(super) struct ContactBook {
     pub episodes: Vec<ContactEpisode>,
     /// Bodies of the fingers that touch a movable object in this step, with the object.
     pub grips: Vec<(usize, usize)>,
-    /// Force by the objects on fingers and tool in this step, normal to the surfaces that touch and along them (N, world).
+    /// Force by the objects on fingers and tool in this step, normal to the surfaces that touch (N, world).
     pub tool_force: Vector3<f64>,
 }
 
@@ -82,7 +82,8 @@ impl ContactBook {
                 self.grips.push((body, object));
             }
             if let (Owner::Robot { finger: true, .. }, Owner::Object(_)) = (a.1.owner, b.1.owner) {
-                let on_second = impulse_on_second(pair) / step;
+                // The engine's impulses are those on the second collider.
+                let on_second = convert::vector_back(pair.total_impulse()) / step;
                 self.tool_force += if ordered { -on_second } else { on_second };
             }
             // The engine's contacts are those of the step's start: where the parts are now is asked of their shapes.
@@ -140,30 +141,6 @@ impl ContactEpisode {
             self.deepest_point = convert::point_back(gap.middle());
         }
     }
-}
-
-/// What the contacts of a pair did to its second collider in the last step (N s, world).
-fn impulse_on_second(pair: &ContactPair) -> Vector3<f64> {
-    let of_manifold = |manifold: &ContactManifold| {
-        let normal = convert::vector_back(manifold.data.normal);
-        let of_point = |data: &ContactData| data.impulse * normal - friction_on_first(data, &normal);
-        manifold.points.iter().map(|point| of_point(&point.data)).sum::<Vector3<f64>>()
-    };
-    pair.solver_manifolds().iter().map(of_manifold).sum()
-}
-
-/// What friction did to the first collider at a point of contact in the last step (N s, world).
-///
-/// The engine tells it along two axes of the surface, `t` and `t' = -n x t`, which it does not tell. But of the last solver iteration it tells both
-/// the vector `w = a t + b t'` and `a, b`; then `t = (a w + b n x w) / (a² + b²)`.
-fn friction_on_first(data: &ContactData, normal: &Vector3<f64>) -> Vector3<f64> {
-    let (w, last) = (convert::vector_back(data.warmstart_tangent_world), data.warmstart_tangent_impulse);
-    let squared = last.x * last.x + last.y * last.y;
-    if squared == 0.0 {
-        return Vector3::zeros();
-    }
-    let t = (w * last.x + normal.cross(&w) * last.y) / squared;
-    t * data.tangent_impulse.x - normal.cross(&t) * data.tangent_impulse.y
 }
 
 fn colliders_gap(engine: &PhysicsWorld, a: ColliderHandle, b: ColliderHandle) -> Option<Gap> {

@@ -214,21 +214,20 @@ fn rows_34_and_38_no_display_is_needed_and_simulated_time_is_counted_in_steps() 
 fn postures_beyond_the_limits_of_joints_are_named() {
     let folder = good();
     let idle = "robot.idle_posture_rad=[0.6, 1.5, 0.0, 1.6, 0.0, 0.6, 0.0]";
-    let rest = "robot.rest_posture_rad=[-0.4347, -1.0645, -0.4138, -0.5, 0.2873, 0.7587, -0.2272]";
-    let inside = "object.block.center_m=[0.6, 0.4]";
+    let rest = "robot.rest_posture_rad=[-0.4347, -1.0645, -0.4138, 1.934, 0.2873, 0.7587, 3.2]";
     for command in [&["validate", "a.toml"][..], &["run", "a.toml", "--out", "out", "-q"]] {
-        let said = with_set(&folder, command, &[idle, rest, inside]);
+        let said = with_set(&folder, command, &[idle, rest]);
         assert_eq!(said.code, Some(3), "{}", said.stderr);
         for told in [
             "robot.idle_posture_rad puts joint `right_s1` at 1.5000 rad, above its upper limit of 1.0470 rad",
-            "robot.rest_posture_rad puts joint `left_e1` at -0.5000 rad, below its lower limit of -0.0500 rad",
-            "inside `block.",
+            "robot.rest_posture_rad puts joint `left_w2` at 3.2000 rad, above its upper limit of 3.0590 rad",
+            "`torso` is 61.6 mm inside `right_lower_elbow`",
         ] {
             assert!(said.stderr.contains(told), "`{told}` is not in: {}", said.stderr);
         }
         assert_eq!(folder.names(), ["a.toml"], "nothing is written");
     }
-    assert_eq!(with_set(&folder, &["validate", "a.toml"], &[&idle.replace("1.5", "1.0")]).code, Some(0));
+    assert_eq!(with_set(&folder, &["validate", "a.toml"], &[&idle.replace("1.5", "0.5")]).code, Some(0));
 }
 
 /// Contract: a dataset that does not show what the skill is asked is warned about before anything runs.
