@@ -26,8 +26,11 @@ impl Outside {
     /// Of what is asked of `skill`.
     pub fn of(skill: &Skill, asked: &Request, settings: &ExecutionSettings) -> Result<Self, LearningError> {
         let motion = Beyond::of(&skill.motion.parameters, &asked.theta);
-        let force = skill.force.as_ref().map(|model| Ok(Beyond::of(&model.parameters, &model.parameters.resolve(&settings.theta_f)?)));
-        Ok(Self { motion, force: force.transpose()?, uncertainty: skill.motion.extrapolation_ratio(&asked.theta)? })
+        let force = match &skill.force {
+            Some(model) => Some(Beyond::of(&model.parameters, &model.parameters.resolve(&settings.theta_f)?)),
+            None => None,
+        };
+        Ok(Self { motion, force, uncertainty: skill.motion.extrapolation_ratio(&asked.theta)? })
     }
 
     /// Of the motion's parameters.
