@@ -12,7 +12,7 @@ use super::parts::{Owner, Parts};
 use super::proximity::{Motion, ProximityBook, Watched};
 use super::robot_body::Limbs;
 use super::simulated_world::{FingerRange, follow_leaders};
-use super::{Clearance, ContactEpisode, World, WorldError, WorldSettings, convert};
+use super::{Clearance, ContactEpisode, Object, World, WorldError, WorldSettings, convert};
 use crate::robot::RobotModel;
 
 /// How near two fingers must be to an object that they hold (m): the pads of a logged grasp may stand a little off.
@@ -27,7 +27,7 @@ pub struct Placement<'a> {
     pub arm_rad: &'a [f64],
     /// Opening of the gripper (0 closed … 1 open).
     pub gripper: f64,
-    /// `world_from_object` of every object, of which those that move are taken; without them, all stay where they are.
+    /// `world_from_object` of every object (of a cabinet, of its door), of which those that move are taken; without them, all stay where they are.
     pub objects: Option<&'a [Isometry3<f64>]>,
 }
 
@@ -41,6 +41,8 @@ pub struct KinematicScene {
     finger_range: FingerRange,
     parts: Parts,
     movable: Vec<bool>,
+    /// Which objects do not always stay where they start: those that are movable, and doors.
+    moving: Vec<bool>,
     book: ProximityBook,
     contacts: ContactBook,
     held: Vec<usize>,
@@ -82,6 +84,7 @@ impl KinematicScene {
             finger_range: world.finger_range,
             parts: world.parts,
             movable: world.movable,
+            moving: settings.objects.iter().map(Object::moves).collect(),
             limbs: world.limbs,
         })
     }
@@ -124,8 +127,8 @@ impl KinematicScene {
         after.objects.clone_from(&self.before.objects);
         if let Some(poses) = placement.objects {
             assert_eq!(poses.len(), after.objects.len(), "one pose per object");
-            for (place, (pose, movable)) in after.objects.iter_mut().zip(poses.iter().zip(&self.movable)) {
-                if *movable {
+            for (place, (pose, moves)) in after.objects.iter_mut().zip(poses.iter().zip(&self.moving)) {
+                if *moves {
                     *place = convert::pose(pose);
                 }
             }
