@@ -12,7 +12,7 @@ use super::parts::{Owner, Parts};
 use super::proximity::{Motion, ProximityBook, Watched};
 use super::robot_body::Limbs;
 use super::simulated_world::{FingerRange, follow_leaders};
-use super::{Clearance, ContactEpisode, World, WorldError, WorldSettings, convert};
+use super::{Clearance, ContactEpisode, Object, World, WorldError, WorldSettings, convert};
 use crate::robot::RobotModel;
 
 /// How near two fingers must be to an object that they hold (m): the pads of a logged grasp may stand a little off.
@@ -27,7 +27,7 @@ pub struct Placement<'a> {
     pub arm_rad: &'a [f64],
     /// Opening of the gripper (0 closed … 1 open).
     pub gripper: f64,
-    /// `world_from_object` of every object, of which those that move are taken; without them, all stay where they are.
+    /// `world_from_object` of every object (of a cabinet, of its door), of which those that move are taken; without them, all stay where they are.
     pub objects: Option<&'a [Isometry3<f64>]>,
 }
 
@@ -40,7 +40,10 @@ pub struct KinematicScene {
     limbs: Limbs,
     finger_range: FingerRange,
     parts: Parts,
+    /// Which objects can be held.
     movable: Vec<bool>,
+    /// Which objects go where a placement says.
+    moving: Vec<bool>,
     book: ProximityBook,
     contacts: ContactBook,
     held: Vec<usize>,
@@ -65,6 +68,7 @@ impl KinematicScene {
             let name = if let Owner::Object(object) = about.owner { names[object].to_owned() } else { about.name.clone() };
             Some(Watched { part, owner: about.owner, name, shape: collider.shared_shape().clone() })
         };
+        let moving: Vec<bool> = settings.objects.iter().map(Object::can_move).collect();
         let solids: Vec<Watched> = colliders.iter().filter_map(solid).collect();
         let groups: Vec<_> = colliders.iter().map(|collider| collider.collision_groups()).collect();
         let places = (0..names.len()).map(|object| convert::pose(&world.object_pose(object))).collect();
@@ -72,7 +76,7 @@ impl KinematicScene {
         Ok(Self {
             mechanism: Mechanism::new(&world, settings.robot, &colliders),
             travel_m: vec![0.0; solids.len()],
-            book: ProximityBook::new(solids, &world.movable, |a, b| groups[a].test(groups[b])),
+            book: ProximityBook::new(solids, &moving, |a, b| groups[a].test(groups[b])),
             contacts: ContactBook::default(),
             held: Vec::new(),
             before: state.clone(),
@@ -82,6 +86,7 @@ impl KinematicScene {
             finger_range: world.finger_range,
             parts: world.parts,
             movable: world.movable,
+            moving,
             limbs: world.limbs,
         })
     }
@@ -124,8 +129,8 @@ impl KinematicScene {
         after.objects.clone_from(&self.before.objects);
         if let Some(poses) = placement.objects {
             assert_eq!(poses.len(), after.objects.len(), "one pose per object");
-            for (place, (pose, movable)) in after.objects.iter_mut().zip(poses.iter().zip(&self.movable)) {
-                if *movable {
+            for (place, (pose, moves)) in after.objects.iter_mut().zip(poses.iter().zip(&self.moving)) {
+                if *moves {
                     *place = convert::pose(pose);
                 }
             }
@@ -145,7 +150,7 @@ impl KinematicScene {
         &self.contacts.episodes
     }
 
-    /// Smallest distances so far, from each part of the arm to each thing that it could hit.
+    /// Smallest distances so far, from each part of the robot to each thing that it could hit.
     pub fn clearances(&self) -> &[Clearance] {
         &self.book.smallest
     }

@@ -138,6 +138,11 @@ impl Object {
         self.is_free() || matches!(self.kind, ObjectKind::SpringPlate { .. })
     }
 
+    /// Whether any of it can move: what [`Self::is_movable`] says, and doors.
+    pub fn can_move(&self) -> bool {
+        self.is_movable() || matches!(self.kind, ObjectKind::Cabinet(_))
+    }
+
     /// Whether nothing holds it but what it lies on.
     pub fn is_free(&self) -> bool {
         match &self.kind {
