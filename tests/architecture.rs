@@ -17,11 +17,12 @@ const ROWS: [&[&str]; 9] = [
 ];
 
 /// Foreign crates that only some rooms may know.
-const FOREIGN: [(&str, &[&str]); 14] = [
+const FOREIGN: [(&str, &[&str]); 15] = [
     ("rapier3d_f64", &["world"]),
     ("parry3d_f64", &["world"]),
     ("rerun", &["recording"]),
     ("plotters", &["figure"]),
+    ("resvg", &["figure"]),
     ("parquet", &["recording", "demonstration", "batch"]),
     // `dataset.toml` is a list of files that the reader of datasets owns; the language of scenarios is known to `scenario` alone.
     ("toml", &["scenario", "demonstration"]),

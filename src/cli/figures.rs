@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::args::{Format, Global};
 use super::failure::Failure;
-use super::figure_files::{Named, draw, of_arm, title};
+use super::figure_files::{Named, draw, names, of_arm, title};
 use super::learn::read_skill;
 use super::load::options;
 use super::planar_files;
@@ -23,7 +23,7 @@ use crate::simulation::Experiment;
 struct Drawn<'a> {
     schema_version: u32,
     folder: &'a Path,
-    figures: Vec<&'a str>,
+    figures: Vec<String>,
 }
 
 /// Draws the figures of the run in `folder` into its `figures/`, or into `--out`.
@@ -37,7 +37,7 @@ pub(super) fn figures(folder: &Path, global: &Global, terminal: &Terminal) -> Ou
     if !failures.is_empty() {
         return Failure::new(Outcome::OutputFailed, failures).tell(terminal);
     }
-    let names: Vec<&str> = figures.iter().map(|(name, _)| *name).collect();
+    let names = names(&figures);
     match terminal.format {
         Format::Json => terminal.json(&Drawn { schema_version: 1, folder: &place, figures: names }),
         Format::Human => names.iter().for_each(|name| terminal.result(&format!("{}\n", place.join(name).display()))),

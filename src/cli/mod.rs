@@ -46,6 +46,8 @@ mod view;
 mod viewer;
 #[cfg(feature = "rerun")]
 mod watched;
+#[cfg(feature = "web-viewer")]
+mod web_page;
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -67,17 +67,17 @@ fn logged<'a>(movement: &'a Movement, setting: &'a str) -> LoggedPath<'a> {
 pub(super) fn figures(left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
     if left.cases_with(Guidance::OneSide).next().is_some() {
         return vec![
-            ("paths.svg", planar_paths("Paths to taught and new goals", left, Guidance::OneSide)),
-            ("forcing.svg", planar_forcing("Forcing terms and states of CPDMP", left, Guidance::OneSide, Method::Cpdmp)),
+            ("paths", planar_paths("Paths to taught and new goals", left, Guidance::OneSide)),
+            ("forcing", planar_forcing("Forcing terms and states of CPDMP", left, Guidance::OneSide, Method::Cpdmp)),
         ];
     }
     let mut figures = vec![
-        ("paths_with_side.svg", planar_paths("The side is told", left, Guidance::WithSide)),
-        ("paths_without_side.svg", planar_paths("The side is not told", left, Guidance::WithoutSide)),
-        ("forcing_with_side.svg", planar_forcing("Forcing terms and states, side told", left, Guidance::WithSide, Method::Cpdmp)),
-        ("forcing_chains.svg", planar_forcing("Forcing terms and states, by chains", left, Guidance::WithoutSide, Method::CpdmpChain)),
+        ("paths_with_side", planar_paths("The side is told", left, Guidance::WithSide)),
+        ("paths_without_side", planar_paths("The side is not told", left, Guidance::WithoutSide)),
+        ("forcing_with_side", planar_forcing("Forcing terms and states, side told", left, Guidance::WithSide, Method::Cpdmp)),
+        ("forcing_chains", planar_forcing("Forcing terms and states, by chains", left, Guidance::WithoutSide, Method::CpdmpChain)),
     ];
-    figures.extend(left.transitions.iter().map(|t| ("transitions.svg", graph(t))));
+    figures.extend(left.transitions.iter().map(|t| ("transitions", graph(t))));
     figures
 }
 
@@ -86,7 +86,7 @@ fn graph(states: &Transitions) -> Figure {
     /// Width and height of the panel (pt).
     const PANEL_PT: [f64; 2] = [640.0, 250.0];
     let title = "States and chains, the side not told";
-    let reading = "*: movements start here; on each arrow the share of the departures that take it";
+    let reading = "*: movements start here; where there are several ways, on each arrow the share of the departures that take it";
     let panel = transitions(reading, &states.graph, &states.chains, PANEL_PT[0]);
     Figure { title: title.to_owned(), panels: vec![panel], columns: 1, panel_size_pt: PANEL_PT }
 }

@@ -18,7 +18,7 @@ pub(super) struct View {
     /// The folder that a run has left, or a recording
     #[arg(value_name = "RUN_DIR")]
     pub place: PathBuf,
-    /// Show it in a browser: the viewer serves it to this machine alone, until Ctrl-C
+    /// Show it in a browser: it is served to this machine alone, until Ctrl-C
     #[arg(long, env = "CPDMP_WEB")]
     pub web: bool,
     /// The port of the page that --web serves
@@ -38,6 +38,17 @@ pub(super) fn view(arguments: &View, terminal: &Terminal) -> Outcome {
     if !recording.is_file() {
         let message = format!("{} is not there: a run leaves one unless its scenario says recording.rrd = false", recording.display());
         return failed(Outcome::InvalidInput, message);
+    }
+    #[cfg(feature = "web-viewer")]
+    if arguments.web && arguments.viewer.viewer_program.is_none() {
+        return match super::web_page::WebPage::open(&recording, arguments.web_port) {
+            Ok(page) => {
+                terminal.note(&format!("showing {} at {} until Ctrl-C\n", recording.display(), page.address()));
+                page.serve();
+                Outcome::Passed
+            }
+            Err(message) => failed(Outcome::OutputFailed, message),
+        };
     }
     let page = arguments.web.then_some(arguments.web_port);
     let started = page.map_or_else(|| arguments.viewer.show(&recording), |port| arguments.viewer.serve(&recording, port));
@@ -74,7 +85,7 @@ fn ended(viewer: &mut Child) -> Option<ExitStatus> {
 
 impl View {
     fn why_it_ended(&self, status: ExitStatus) -> String {
-        let program = self.viewer.viewer_program.display();
+        let program = self.viewer.program().display();
         if self.web {
             let ports = (self.web_port, self.viewer.viewer_port);
             format!(

@@ -11,9 +11,9 @@ use clap::Args;
 /// Which viewer shows recordings.
 #[derive(Clone, Debug, Args)]
 pub(super) struct Viewer {
-    /// The program that shows recordings
-    #[arg(long, env = "CPDMP_VIEWER_PROGRAM", value_name = "PROGRAM", default_value = "rerun")]
-    pub viewer_program: PathBuf,
+    /// The program that shows recordings instead of `rerun`
+    #[arg(long, env = "CPDMP_VIEWER_PROGRAM", value_name = "PROGRAM")]
+    pub viewer_program: Option<PathBuf>,
     /// The port at which it listens on this machine
     #[arg(long, env = "CPDMP_VIEWER_PORT", value_name = "PORT", default_value_t = 9876)]
     pub viewer_port: u16,
@@ -27,6 +27,11 @@ const INSTALL: &str = "install it with `pip install rerun-sdk==0.36.3` or `cargo
 const ANSWERS: Duration = Duration::from_millis(200);
 
 impl Viewer {
+    /// The program that shows recordings.
+    pub fn program(&self) -> &Path {
+        self.viewer_program.as_deref().unwrap_or(Path::new("rerun"))
+    }
+
     /// Shows a recording: in a viewer that is open already, or in one of its own. Whoever started it need not wait for it; what it says goes
     /// nowhere.
     ///
@@ -41,7 +46,7 @@ impl Viewer {
     /// # Errors
     /// In words, when it cannot be started.
     pub fn serve(&self, recording: &Path, port: u16) -> Result<Child, String> {
-        let mut command = Command::new(&self.viewer_program);
+        let mut command = Command::new(self.program());
         let bind = Ipv4Addr::LOCALHOST.to_string();
         command.arg(recording).args(["--web-viewer", "--bind", &bind, "--web-viewer-port", &port.to_string()]);
         self.start(&mut command)
@@ -63,7 +68,7 @@ impl Viewer {
     }
 
     fn window(&self) -> Command {
-        apart(Command::new(&self.viewer_program))
+        apart(Command::new(self.program()))
     }
 
     fn start(&self, command: &mut Command) -> Result<Child, String> {
@@ -81,7 +86,7 @@ impl Viewer {
     }
 
     fn why_not(&self, error: &io::Error) -> String {
-        let program = self.viewer_program.display();
+        let program = self.program().display();
         match error.kind() {
             io::ErrorKind::NotFound => format!("the viewer `{program}` is not there: {INSTALL}"),
             _ => format!("the viewer `{program}` cannot be started: {error}"),

@@ -61,7 +61,7 @@ impl<'a> ArmRun<'a> {
     ) -> Result<Self, LearningError> {
         let asked_s = question.duration_s.unwrap_or(skill.motion.duration_s);
         let plan = generate(skill, &question, asked_s / DRAWN_SAMPLES as f64, 1.0)?;
-        let states = task_space_states(skill, &question)?;
+        let states = coupled(task_space_states(skill, &question)?, &question)?;
         let duration_s = skill_duration_s(steps).unwrap_or_else(|| plan.duration_s());
         Ok(Self { name, steps, skill, dataset, learning, question, duration_s, plan, states, arcs: Vec::new() })
     }
@@ -106,6 +106,14 @@ impl<'a> ArmRun<'a> {
             .filter_map(|window| Some([window.first()?.time_s, window.last()?.time_s]))
             .map(|ends| Mark::band("the arm complies", COMPLIES, 0.13, ends))
     }
+}
+
+/// The states with the `beta` with which the run couples them.
+fn coupled(mut states: Vec<TaskSpaceState>, question: &ExecutionSettings) -> Result<Vec<TaskSpaceState>, LearningError> {
+    let learned: Vec<f64> = states.iter().map(|state| state.beta).collect();
+    let betas = question.coupling.beta(&learned)?;
+    states.iter_mut().zip(betas).for_each(|(state, beta)| state.beta = beta);
+    Ok(states)
 }
 
 /// The arc of a cabinet's handle in use about the hinge, from the closed door to the open one (m, world).

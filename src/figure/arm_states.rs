@@ -11,6 +11,9 @@ const WIDTH_PT: f64 = 700.0;
 /// Height of the panel with one chain, and of every other one (pt).
 const HEIGHT_PT: [f64; 2] = [120.0, 110.0];
 
+/// How to read it.
+const READING: &str = "*: movements start here; where there are several ways, on each arrow the share of the departures that take it";
+
 /// The transition graph with its chains; `None` for a skill without states.
 ///
 /// # Errors
@@ -21,7 +24,7 @@ pub fn arm_states(run: &ArmRun) -> Result<Option<Figure>, LearningError> {
     let theta = run.skill.request(&run.question)?.theta;
     let graph = TransitionGraph::of(phmm, &motion.parameters.features.at(&theta));
     let chains = graph.chains();
-    let panel = transitions("", &graph, &chains, WIDTH_PT);
+    let panel = transitions(READING, &graph, &chains, WIDTH_PT);
     Ok(Some(Figure {
         title: format!("States and how they follow: {}", run.name),
         panels: vec![panel],

@@ -14,4 +14,8 @@ pub enum FigureError {
         /// What the library said.
         message: String,
     },
+    /// A drawing could not be made a picture.
+    #[cfg(feature = "png")]
+    #[error("no picture can be made of the figure: {0}")]
+    Raster(String),
 }

@@ -54,6 +54,9 @@ pub fn graph(nodes: &[Node], edges: &[Edge], pt: f64) -> Vec<Mark> {
         let margin = (NODE_PT * pt / way.norm()).min(0.45);
         let points = (0..=24).map(|i| curve(margin + (1.0 - 2.0 * margin) * f64::from(i) / 24.0).into()).collect();
         marks.push(Mark { legend: String::new(), color: edge.color, shape: Shape::Arrow { points, width_pt: edge.width_pt } });
+        if edge.label.is_empty() {
+            continue;
+        }
         let beside = curve(0.5) + left * (clear_of_edge_pt(&edge.label, left) * pt);
         marks.push(Mark::words(BLACK, beside.into(), Anchor::Middle, &edge.label));
     }

@@ -1,7 +1,7 @@
-//! Drawings for papers: what a run left behind as SVG, the only room that knows plotters.
+//! Drawings for papers: what a run left behind as SVG and PNG, the only room that knows plotters and resvg.
 //!
-//! A [`Figure`] is plain data: panels of marks in the units of their axes, and one legend for all. [`svg`] draws it. Text stays text and no
-//! font is needed to draw it; nothing lies outside of the page. Colours are those of [`crate::palette`].
+//! A [`Figure`] is plain data: panels of marks in the units of their axes, and one legend for all. [`svg()`] draws it. Text stays text and no
+//! font is needed to draw it; nothing lies outside of the page. With the feature `png`, a picture is made of the drawing. Colours are those of [`crate::palette`].
 
 mod arm_compliance;
 mod arm_forcing;
@@ -21,6 +21,8 @@ mod legend;
 mod mark;
 mod planar_forcing;
 mod planar_paths;
+#[cfg(feature = "png")]
+mod raster;
 mod svg;
 mod ticks;
 mod transitions;
@@ -38,5 +40,7 @@ pub use graph::{Edge, Node, graph};
 pub use mark::{Anchor, Mark, Shape, Symbol};
 pub use planar_forcing::planar_forcing;
 pub use planar_paths::planar_paths;
+#[cfg(feature = "png")]
+pub use raster::png;
 pub use svg::svg;
 pub use transitions::transitions;

@@ -14,8 +14,8 @@ const EDGE_PT: [f64; 2] = [0.5, 2.0];
 /// States nearer in phase than this share of the phase's range are drawn this far apart (-): or their discs would touch.
 const LEAST_STEP: f64 = 0.055;
 
-/// The graph as a panel `width_pt` wide: states from left to right in the order of their phase, one lane per chain, the share of the
-/// departures on each arrow. States of several chains lie between their lanes, states of none below all lanes, in grey.
+/// The graph as a panel `width_pt` wide: states from left to right in the order of their phase, one lane per chain, on
+/// arrows that are not the only way on the share of the departures that take them. States of several chains lie between their lanes, states of none below all lanes, in grey.
 #[must_use]
 pub fn transitions(title: &str, states: &TransitionGraph, chains: &[StateChain], width_pt: f64) -> Chart {
     let along = places(states);
@@ -34,7 +34,7 @@ pub fn transitions(title: &str, states: &TransitionGraph, chains: &[StateChain],
     let edge = |edge: &crate::learning::phmm::TransitionEdge| Edge {
         from: edge.from,
         to: edge.to,
-        label: format!("{:.2}", edge.probability),
+        label: if alone(states, edge.from) { String::new() } else { format!("{:.2}", edge.probability) },
         width_pt: EDGE_PT[0] + (EDGE_PT[1] - EDGE_PT[0]) * edge.probability,
         color: BLACK,
     };
@@ -44,6 +44,11 @@ pub fn transitions(title: &str, states: &TransitionGraph, chains: &[StateChain],
     chart.marks.extend((0..chains.len()).map(|chain| Mark::entry(&chain_name(chain), chain_color(chain), Symbol::Disc, NODE_PT)));
     chart.marks.extend(graph(&nodes, &edges, GRAPH_PT[0] / width_pt.max(1.0)));
     chart
+}
+
+/// Whether only one state follows a state.
+fn alone(states: &TransitionGraph, from: usize) -> bool {
+    states.edges.iter().filter(|edge| edge.from == from).count() == 1
 }
 
 /// What people call a chain: they count from 1.

@@ -1,11 +1,13 @@
 //! What the colours mean, in figures and recordings alike.
 
-use super::{BLUE, GREEN, GREY, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, YELLOW};
+use super::{BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, YELLOW};
 
 /// What was taught.
 pub const TAUGHT: Rgb = GREY;
 /// What the skill generates for a setting without any force.
 pub const PLANNED: Rgb = SKY_BLUE;
+/// What the baseline generates for it.
+pub const BASELINE: Rgb = BLACK;
 /// What was executed.
 pub const EXECUTED: Rgb = ORANGE;
 /// A stiff state.

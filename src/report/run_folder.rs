@@ -137,10 +137,10 @@ fn remove_if_there(folder: &Path) -> Result<(), OutputError> {
 }
 
 /// Writes a file so that it is on the disk when this returns.
-pub fn write_file(path: &Path, content: &str) -> Result<(), OutputError> {
+pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
     let write = || {
         let mut file = File::create(path)?;
-        file.write_all(content.as_bytes())?;
+        file.write_all(content.as_ref())?;
         file.sync_all()
     };
     write().map_err(OutputError::io(path))

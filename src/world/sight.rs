@@ -1,21 +1,30 @@
 //! What can be seen from where: for pictures only, no controller looks.
 
-use nalgebra::Point3;
+use nalgebra::{Isometry3, Point3};
 use parry3d_f64::query::Ray;
 
 use super::scene::collider;
-use super::{Object, Parameters, convert, fixed_parts, object_parts, support_height_m};
+use super::{Object, ObjectPart, Parameters, convert, fixed_parts, object_parts, support_height_m};
 
-/// How many of `points` an object of a scene at its start hides from an eye at `from` (m, world). The robot hides nothing.
+/// How many of `points` an object of a scene hides from an eye at `from` (m, world). The objects are where `poses` says (`world_from_object`,
+/// in their order, of a cabinet its door), those that it does not name at their start. The robot hides nothing.
 #[must_use]
-pub fn hidden_count(objects: &[Object], parameters: &Parameters, from: &Point3<f64>, points: &[Point3<f64>]) -> usize {
+pub fn hidden_count(
+    objects: &[Object],
+    parameters: &Parameters,
+    poses: &[Isometry3<f64>],
+    from: &Point3<f64>,
+    points: &[Point3<f64>],
+) -> usize {
     let support = support_height_m(objects, parameters);
     let shapes: Vec<_> = objects
         .iter()
-        .flat_map(|object| {
-            let pose = convert::pose(&object.pose(parameters, support));
-            let parts = object_parts(object, parameters).into_iter().chain(fixed_parts(object));
-            parts.map(move |part| (pose, collider(&part).build()))
+        .enumerate()
+        .flat_map(|(index, object)| {
+            let start = object.pose(parameters, support);
+            let pose = poses.get(index).copied().unwrap_or(start);
+            let at = |pose: Isometry3<f64>| move |part: ObjectPart| (convert::pose(&pose), collider(&part).build());
+            object_parts(object, parameters).into_iter().map(at(pose)).chain(fixed_parts(object).into_iter().map(at(start)))
         })
         .collect();
     let hides = |point: &Point3<f64>| {
@@ -38,6 +47,9 @@ mod tests {
         let table = Object::new("table", Vector2::zeros(), kind);
         let eye = Point3::new(0.0, 0.0, 2.0);
         let points = [0.7, 0.3].map(|z| Point3::from(Vector3::new(0.1, 0.1, z)));
-        assert_eq!(hidden_count(&[table], &Parameters::default(), &eye, &points), 1);
+        let hidden = |poses: &[Isometry3<f64>]| hidden_count(std::slice::from_ref(&table), &Parameters::default(), poses, &eye, &points);
+        assert_eq!(hidden(&[]), 1);
+        assert_eq!(hidden(&[Isometry3::translation(0.0, 0.0, 1.0)]), 2, "raised above both");
+        assert_eq!(hidden(&[Isometry3::translation(5.0, 0.0, 0.5)]), 0, "moved aside");
     }
 }

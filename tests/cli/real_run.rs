@@ -89,10 +89,10 @@ fn figures_are_drawn_again_from_the_folder_alone() {
         names(folder).into_iter().map(|name| (name.clone(), fs::read(folder.join(name)).expect("a figure"))).collect()
     };
     let first = figures(&place.join("figures"));
-    assert_eq!(first.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), FIGURES);
+    assert_eq!(first.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), figure_files());
     let said = folder.call(&["figures", "moved", "--out", "again"]);
     assert_eq!(said.code, Some(0), "{}", said.stderr);
-    assert!(FIGURES.iter().all(|name| said.stdout.contains(&format!("again/{name}\n"))), "{}", said.stdout);
+    assert!(figure_files().iter().all(|name| said.stdout.contains(&format!("again/{name}\n"))), "{}", said.stdout);
     assert!(figures(&folder.path().join("again")) == first, "the bytes differ");
     fs::remove_dir_all(place.join("figures")).expect("removed");
     let said = folder.call(&["figures", "moved", "--format", "json"]);
@@ -107,7 +107,14 @@ fn figures_are_drawn_again_from_the_folder_alone() {
     }
 }
 
-const FIGURES: [&str; 6] = ["compliance.svg", "forcing.svg", "forcing_settings.svg", "motion.svg", "paths.svg", "states.svg"];
+/// The files of a run's figures: drawings and, with the feature `png`, pictures.
+fn figure_files() -> Vec<String> {
+    let kinds: &[&str] = if cfg!(feature = "png") { &["png", "svg"] } else { &["svg"] };
+    let figures = ["compliance", "forcing", "forcing_settings", "motion", "paths", "states"];
+    let mut files: Vec<String> = figures.iter().flat_map(|name| kinds.iter().map(move |kind| format!("{name}.{kind}"))).collect();
+    files.sort();
+    files
+}
 
 #[test]
 fn a_recorded_dataset_stands_for_the_teaching() {

@@ -2,6 +2,7 @@
 #![cfg(all(unix, feature = "rerun"))]
 
 use std::fs;
+use std::io::Read;
 use std::net::TcpListener;
 use std::os::unix::fs::PermissionsExt;
 use std::time::{Duration, Instant};
@@ -109,4 +110,34 @@ fn a_viewer_that_never_answers_does_not_delay_a_run() {
     // As long again, for a machine that was busier the second time.
     assert!(longer < Duration::from_secs(2) + alone, "{longer:?} longer than {alone:?}");
     assert_eq!(said.stdout.lines().last(), watched.stdout.lines().last(), "the same state hash");
+}
+
+/// Contract: a viewer that goes away while it is sent a run changes nothing about the run.
+#[test]
+fn a_viewer_that_is_closed_in_the_middle_does_not_change_a_run() {
+    let folder = with_viewer("exit 0");
+    let alone = folder.call(&["run", "a.toml"]);
+    let viewer = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = viewer.local_addr().expect("its address").port().to_string();
+    // It hears the beginning of the first conversation, hangs up, and is gone. Those who only look whether it is there say nothing.
+    viewer.set_nonblocking(true).expect("it need not wait");
+    let started = Instant::now();
+    let closed = std::thread::spawn(move || {
+        while started.elapsed() < Duration::from_secs(120) {
+            let Ok((mut connection, _)) = viewer.accept() else {
+                std::thread::sleep(Duration::from_millis(5));
+                continue;
+            };
+            connection.set_nonblocking(false).expect("it waits");
+            if connection.read_exact(&mut [0; 64]).is_ok() {
+                return true;
+            }
+        }
+        false
+    });
+    let watched = folder.call(&["run", "a.toml", "--viewer", "--viewer-program", "./viewer", "--viewer-port", &port]);
+    assert!(closed.join().expect("it ends"), "the run was sent to the viewer");
+    assert_eq!((alone.code, watched.code), (Some(0), Some(0)), "{}", watched.stderr);
+    assert_eq!(alone.stdout.lines().last(), watched.stdout.lines().last(), "the same state hash");
+    assert!(folder.path().join("runs/good-0/recording.rrd").is_file());
 }

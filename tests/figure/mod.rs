@@ -1,5 +1,7 @@
-//! Figures as SVG.
+//! Figures as SVG and PNG.
 
 mod arm;
 mod drawing;
+#[cfg(feature = "png")]
+mod picture;
 mod transition_graph;

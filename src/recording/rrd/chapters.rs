@@ -1,17 +1,18 @@
 //! What a recording tells, chapter by chapter: all at once when the run is over, or one after the other while it happens.
 
-use nalgebra::Vector3;
 use rerun::blueprint::components::PlayState;
 use rerun::{RecordingStream, ViewCoordinates};
 
 use super::camera::Camera;
 use super::entity_path::WORLD;
-use super::paths::COLUMNS;
+use super::layout::Shown;
 use super::recorder::{Fault, Recorder};
+use super::workplace::Workplace;
 use super::{
-    blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, paths, replay_figure, robot_figure,
-    scene_figure, spread_figure, state_figure, task_states, teaching_figure,
+    baseline, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, paths, replay_figure,
+    robot_figure, scene_figure, spread_figure, state_figure, task_states, teaching_figure,
 };
+use crate::learning::ShapingKind;
 use crate::robot::{RobotModel, Shape};
 use crate::simulation::{Experiment, LessonRecord, RunOutcome};
 
@@ -22,8 +23,8 @@ pub(super) const APPLICATION: &str = "cpdmp";
 pub(super) struct Chapters<'a> {
     pub stream: RecordingStream,
     pub experiment: &'a Experiment,
-    /// The middle of the way of the tool (m, world).
-    pub middle: Vector3<f64>,
+    /// Where the tool does its work.
+    pub work: Workplace,
     /// How long the execution of the skill takes (s).
     pub duration_s: f64,
 }
@@ -31,8 +32,15 @@ pub(super) struct Chapters<'a> {
 impl Chapters<'_> {
     /// The layout that the recording opens with; with a page for the lessons when there are some.
     pub fn layout(&self, robot: &RobotModel, taught: bool, play: PlayState) -> Result<(), Fault> {
-        let camera = Camera::on(self.middle, &self.experiment.objects, &self.experiment.parameters);
-        let (blueprint, properties) = layout::layout(camera, floor_m(robot), taught, play)?;
+        let shown = Shown {
+            camera: Camera::on(&self.work, &self.experiment.objects, &self.experiment.parameters),
+            floor_m: floor_m(robot),
+            way_m: self.work.size,
+            taught,
+            baseline: baseline::compares(self.experiment),
+            states: self.experiment.learning.shaping != ShapingKind::Lwr,
+        };
+        let (blueprint, properties) = layout::layout(&shown, play)?;
         blueprint_property::send(&self.stream, APPLICATION, &blueprint, &properties)
     }
 
@@ -48,6 +56,7 @@ impl Chapters<'_> {
         guide::log_guide(&recorder, self.experiment, outcome)?;
         replay_figure::log_replays(&recorder, &outcome.dataset)?;
         paths::log_known(&recorder, outcome, self.duration_s)?;
+        baseline::log_baseline(&recorder, self.experiment, outcome)?;
         state_figure::log_states(&recorder, self.experiment, outcome, self.duration_s)?;
         forcing_figure::log_forcing(&recorder, self.experiment, outcome, self.duration_s)
     }
@@ -60,7 +69,7 @@ impl Chapters<'_> {
         robot_figure::log_robot(&recorder, &outcome.robot, records)?;
         scene_figure::log_objects(&recorder, self.experiment, records)?;
         paths::log_executed(&recorder, records)?;
-        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.middle))?;
+        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.work.middle))?;
         force_figure::log_forces(&recorder, records, outcome.skill.force.is_some())?;
         lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
@@ -75,20 +84,6 @@ impl Chapters<'_> {
     fn recorder(&self, records: &[crate::simulation::StepRecord]) -> Recorder {
         Recorder::new(self.stream.clone(), records, self.experiment.physics.step_s, self.duration_s)
     }
-}
-
-/// The middle of a box around some places (m); the origin without places.
-pub(super) fn middle(places: impl IntoIterator<Item = Vector3<f64>>) -> Vector3<f64> {
-    let mut places = places.into_iter();
-    let Some(first) = places.next() else { return Vector3::zeros() };
-    let (low, high) = places.fold((first, first), |(low, high), place| (low.inf(&place), high.sup(&place)));
-    (low + high) / 2.0
-}
-
-/// The middle of the way that is planned (m).
-pub(super) fn middle_of_plan(outcome: &RunOutcome) -> Vector3<f64> {
-    let [Some(x), Some(y), Some(z)] = COLUMNS.map(|name| outcome.plan.column(name)) else { return Vector3::zeros() };
-    middle((0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i])))
 }
 
 /// Height of the floor: the lowest point of the robot's fixed body (m), at most the height of its base.

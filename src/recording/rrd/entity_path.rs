@@ -72,6 +72,7 @@ entities! {
     OBJECT "world/objects/{object}" "pose of an object of the scene, at every logged step if it ever moves"
     OBJECT_SHAPE "world/objects/{object}/{shape}" "what the object looks like, in its frame"
     TAUGHT_PATH "world/paths/taught/{demonstration}" "path of the tool in a demonstration"
+    BASELINE_PATH "world/paths/baseline" "path that plain LWR-DMPs from the same demonstrations generate: they are not told the parameters"
     PLANNED_PATH "world/paths/planned" "path that the skill generates for this setting without any force"
     EXECUTED_PATH "world/paths/executed" "path of the tool: at each step the piece since the step before; the view keeps them all"
     TOOL "world/tool" "pose of the tool frame (grasp centre) at every logged step"
@@ -126,5 +127,6 @@ entities! {
     REPLAY_FORCE "replay_plots/force/{axis}" "the same along an axis (N)"
     REPLAY_LANE "replay_lanes/demonstration" "which demonstration is replayed"
     EVENTS "events" "what happens, in words"
+    FORCE_COLORS "legends/force" "which colour is which force"
     GUIDE "guide" "how to read this recording"
 }

@@ -1,12 +1,12 @@
 //! What is felt and what is done about it: forces as arrows and over time, the coupling's displacement, compliance and gripper.
 
 use nalgebra::{Point3, Vector3};
-use rerun::{Arrows3D, Color, EntityPath, Scalars};
+use rerun::{Arrows3D, Color, EntityPath, Scalars, TextDocument};
 
 use super::convert;
 use super::entity_path::{
-    ACTIVATION, BETA, COUPLING, EXPECTED, EXPECTED_ARROW, EXTERNAL, Entity, GRIPPER_COMMAND, GRIPPER_OPENING, PERSON, PERSON_ARROW,
-    PERSON_FORCE, PERSON_POWER, TORQUE, WRENCH, WRENCH_ARROW,
+    ACTIVATION, BETA, COUPLING, EXPECTED, EXPECTED_ARROW, EXTERNAL, Entity, FORCE_COLORS, GRIPPER_COMMAND, GRIPPER_OPENING, PERSON,
+    PERSON_ARROW, PERSON_FORCE, PERSON_POWER, TORQUE, WRENCH, WRENCH_ARROW,
 };
 use super::lanes::holds;
 use super::palette;
@@ -26,6 +26,10 @@ pub(super) const SMALLEST_ARROW_N: f64 = 0.25;
 /// Colours of the three axes, as rerun and most robot tools draw them.
 const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLANNED];
 
+/// Which colour is which force, for a skill with a force model and for one without.
+const COLORS: &str = "blue: measured\n\nyellow: expected\n\npurple: unexpected\n\nvermilion: person";
+const COLORS_WITHOUT_MODEL: &str = "blue: measured\n\nvermilion: person";
+
 /// Logs all forces and what answers them; `expects` tells whether the skill knows what force to expect.
 pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], expects: bool) -> Result<(), Fault> {
     let tool = |r: &StepRecord| Point3::from(r.tool.translation.vector);
@@ -36,6 +40,8 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], expects: b
         arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r), r.expected_force))?;
     }
     arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point + to_surface(&r.human.force), r.human.force))?;
+    let colors = if expects { COLORS } else { COLORS_WITHOUT_MODEL };
+    recorder.always(FORCE_COLORS.path(), &TextDocument::from_markdown(colors))?;
     let plot = Plot { recorder, records };
     for (i, axis) in AXES.iter().enumerate() {
         plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;

@@ -33,6 +33,7 @@ person may push it to where it should go (vermilion arrow). Ellipsoids and ellip
 each state, at two standard deviations.
 
 - grey: taught; blue: planned, what the skill generates for this setting without any force; orange: executed
+- black: what plain DMPs by locally weighted regression generate from the same demonstrations, when the skill is told parameters: they are not
 - dark blue arrow and line: force measured at the tool; yellow: force that the skill expects; vermilion: force of the person
 - the ellipsoid with the thick lines is that of the active state, which is also named beside the scene
 - the plot above the lanes says why: a state complies when the demonstrations disagree in it by more than the threshold sigma

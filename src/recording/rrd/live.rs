@@ -12,8 +12,9 @@ use std::time::Duration;
 use rerun::blueprint::components::PlayState;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
-use super::chapters::{APPLICATION, Chapters, middle, middle_of_plan};
+use super::chapters::{APPLICATION, Chapters};
 use super::recorder::Fault;
+use super::workplace::Workplace;
 use super::write::name;
 use crate::robot::RobotModel;
 use crate::simulation::{Experiment, LessonRecord, RunOutcome, StepRecord};
@@ -122,13 +123,13 @@ impl LiveRecording {
 /// Records until the run is over, so many steps together.
 fn record(stream: RecordingStream, experiment: &Experiment, together: usize, news: &Receiver<News>) -> Result<(), Fault> {
     stream.send_recording_name(format!("{} (live)", name(experiment)))?;
-    let mut chapters = Chapters { stream, experiment, middle: Default::default(), duration_s: 1.0 };
+    let mut chapters = Chapters { stream, experiment, work: Workplace::default(), duration_s: 1.0 };
     let mut planned: Option<Box<RunOutcome>> = None;
     let (mut opened, mut told) = (false, 0);
     for news in news {
         match news {
             News::Taught(robot, lessons) => {
-                chapters.middle = middle(lessons.iter().flat_map(|lesson| lesson.looks.iter().map(|look| look.tool)));
+                chapters.work = Workplace::of_lessons(&lessons);
                 chapters.layout(&robot, true, PlayState::Following)?;
                 opened = true;
                 chapters.lessons(&robot, &lessons)?;
@@ -136,7 +137,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
             News::Planned(outcome) => {
                 chapters.duration_s = outcome.plan.duration_s();
                 if !opened {
-                    chapters.middle = middle_of_plan(&outcome);
+                    chapters.work = Workplace::of_plan(&outcome);
                     chapters.layout(&outcome.robot, false, PlayState::Following)?;
                 }
                 chapters.skill(&outcome)?;

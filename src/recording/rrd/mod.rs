@@ -1,5 +1,6 @@
 //! The recording for the rerun viewer: the only place that knows rerun.
 
+mod baseline;
 mod blueprint_property;
 mod camera;
 mod chapters;
@@ -31,6 +32,7 @@ mod spread_figure;
 mod state_figure;
 mod task_states;
 mod teaching_figure;
+mod workplace;
 mod write;
 
 pub use live::LiveRecording;

@@ -15,6 +15,8 @@ pub(super) const TAUGHT: Color = rgb(meaning::TAUGHT);
 pub(super) const PLANNED: Color = rgb(meaning::PLANNED);
 /// What was executed.
 pub(super) const EXECUTED: Color = rgb(meaning::EXECUTED);
+/// What another method generates.
+pub(super) const BASELINE: Color = rgb(meaning::BASELINE);
 /// A stiff state.
 pub(super) const STIFF: Color = rgb(meaning::STIFF);
 /// A state that complies.

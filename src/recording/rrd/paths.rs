@@ -70,14 +70,14 @@ fn strip(points: Vec<[f32; 3]>, color: Color, radius_m: f32) -> LineStrips3D {
 }
 
 /// A thinned trajectory, its time stretched to a duration.
-struct Path {
+pub(super) struct Path {
     times_s: Vec<f64>,
     /// The coordinates that it has.
     columns: [Option<DVector<f64>>; 3],
 }
 
 impl Path {
-    fn new(trajectory: &Trajectory, duration_s: f64) -> Self {
+    pub(super) fn new(trajectory: &Trajectory, duration_s: f64) -> Self {
         let every = (trajectory.samples() / DRAWN_SAMPLES).max(1);
         let last = trajectory.samples() - 1;
         let kept: Vec<usize> = (0..last).step_by(every).chain([last]).collect();
@@ -88,7 +88,7 @@ impl Path {
     }
 
     /// The places, when all three coordinates are there.
-    fn points(&self) -> Option<Vec<[f32; 3]>> {
+    pub(super) fn points(&self) -> Option<Vec<[f32; 3]>> {
         let [Some(x), Some(y), Some(z)] = &self.columns else { return None };
         Some((0..x.len()).map(|i| convert::vector(&Vector3::new(x[i], y[i], z[i]))).collect())
     }

@@ -54,7 +54,10 @@ pub(super) fn log_active(
     let changes = (recorder.first()..records.len()).filter(known).map(|i| (records[i].time_s, records[i].state));
     let (times, active): (Vec<f64>, Vec<usize>) = changes.unzip();
     recorder.at_times(ACTIVE_STATE.path(), &times, ellipsoids(states, &active).columns_of_unit_batches()?)?;
-    let label = |i: &usize| format!("state {i}: {}", beta_in_words(states[*i].beta));
+    // What the skill says; a run without coupling does not listen.
+    let unheard = !experiment.execution.coupling.enabled;
+    let suffix = |beta: f64| if unheard && beta != 0.0 { ", but the coupling is off" } else { "" };
+    let label = |i: &usize| format!("state {i}: {}{}", beta_in_words(states[*i].beta), suffix(states[*i].beta));
     let labels = Points3D::update_fields()
         .with_positions(active.iter().map(|_| convert::vector(&(middle + LABEL_FROM_MIDDLE_M))))
         .with_labels(active.iter().map(label))

@@ -5,8 +5,9 @@ use std::path::Path;
 use rerun::RecordingStreamBuilder;
 use rerun::blueprint::components::PlayState;
 
-use super::chapters::{APPLICATION, Chapters, middle};
+use super::chapters::{APPLICATION, Chapters};
 use super::recorder::Fault;
+use super::workplace::Workplace;
 use crate::recording::RecordingError;
 use crate::simulation::{Experiment, RunOutcome, skill_duration_s};
 
@@ -41,7 +42,7 @@ fn record(experiment: &Experiment, outcome: &RunOutcome) -> Result<Vec<u8>, Faul
     let chapters = Chapters {
         stream: stream.clone(),
         experiment,
-        middle: middle(outcome.steps.iter().map(|record| record.tool.translation.vector)),
+        work: Workplace::of_steps(&outcome.steps),
         duration_s: skill_duration_s(&outcome.steps).unwrap_or_else(|| outcome.plan.duration_s()),
     };
     chapters.layout(&outcome.robot, !outcome.lessons.is_empty(), PlayState::Paused)?;
