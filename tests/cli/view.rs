@@ -141,3 +141,33 @@ fn a_viewer_that_is_closed_in_the_middle_does_not_change_a_run() {
     assert_eq!(alone.stdout.lines().last(), watched.stdout.lines().last(), "the same state hash");
     assert!(folder.path().join("runs/good-0/recording.rrd").is_file());
 }
+
+/// Contract: with the page in the program, `--web` needs no viewer: page and recording are served, and nothing else.
+#[cfg(feature = "web-viewer")]
+#[test]
+fn the_program_serves_the_page_itself() {
+    let folder = with_viewer("exit 1");
+    let port = free_port();
+    let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_cpdmp"));
+    let mut child = program.current_dir(folder.path()).args(["view", "run", "--web", "--web-port", &port]).spawn().expect("it starts");
+    let started = Instant::now();
+    let get = |path: &str| {
+        let mut connection = loop {
+            if let Ok(connection) = std::net::TcpStream::connect(format!("127.0.0.1:{port}")) {
+                break connection;
+            }
+            assert!(started.elapsed() < Duration::from_secs(60), "nobody listens");
+            std::thread::sleep(Duration::from_millis(20));
+        };
+        std::io::Write::write_all(&mut connection, format!("GET {path} HTTP/1.0\r\n\r\n").as_bytes()).expect("asked");
+        let mut answer = Vec::new();
+        connection.read_to_end(&mut answer).expect("answered");
+        answer
+    };
+    let holds = |answer: &[u8], words: &str| answer.windows(words.len()).any(|window| window == words.as_bytes());
+    assert!(holds(&get("/?url=x"), "re_viewer.js"), "the page asks for its program");
+    assert!(get("/re_viewer_bg.wasm").len() > 1_000_000);
+    assert!(get("/recording.rrd").ends_with(b"\r\n\r\nRRF2"), "the recording, to the byte");
+    assert!(holds(&get("/a.toml"), " 404 "), "no other file");
+    child.kill().and_then(|()| child.wait()).expect("it is ended");
+}

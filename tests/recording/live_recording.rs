@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use cpdmp::recording::entity_path::{self, Entity};
 use cpdmp::recording::{LiveRecording, write_recording};
 use cpdmp::simulation::RunOutcome;
+use cpu_time::ThreadTime;
 use rerun::EntityPath;
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::log::Chunk;
@@ -93,15 +94,19 @@ fn a_viewer_that_hangs_or_is_not_there_keeps_nobody_waiting() {
     for address in [hangs.local_addr().expect("its address"), free_port()] {
         let recording = LiveRecording::to_viewer(address, &experiment());
         tell(&recording, &run);
-        let mut waits: Vec<Duration> = Vec::new();
+        let (mut waits, mut worked) = (Vec::new(), Duration::ZERO);
         for record in run.steps.iter().cycle().take(20_000) {
-            let started = Instant::now();
+            let (started, working) = (Instant::now(), ThreadTime::now());
             recording.stepped(record);
+            worked = worked.max(working.elapsed());
             waits.push(started.elapsed());
         }
         waits.sort();
+        // Of the longest call what this thread did itself: the rest is the machine's.
+        assert!(worked < Duration::from_millis(1), "{worked:?}");
+        println!("longest call {:?}, of which the thread worked at most {worked:?}", waits[waits.len() - 1]);
         // A machine that does something else for a moment is not the recording's fault.
-        assert!(waits[waits.len() * 999 / 1000] < Duration::from_millis(1), "{:?}", &waits[waits.len() - 30..]);
+        assert!(waits[waits.len() * 99 / 100] < Duration::from_millis(1), "{:?}", &waits[waits.len() - 30..]);
         let started = Instant::now();
         recording.finish(Duration::from_millis(300));
         assert!(started.elapsed() < Duration::from_secs(2), "{:?}", started.elapsed());

@@ -23,6 +23,9 @@ const EYES_FROM_TARGET_M: [Vector3<f64>; 6] = [
 const SIZE_M: f64 = 0.75;
 const NEAREST_SHARE: f64 = 0.6;
 
+/// From what the camera looks at to words beside the work: to the right and upwards, as shares of the distance from the eye.
+const BESIDE: [f64; 2] = [0.4, 0.1];
+
 /// How far the places around the tool lie that should be seen too (m).
 const AROUND_M: f64 = 0.1;
 
@@ -52,6 +55,13 @@ impl Camera {
         let seen = eyes.iter().find(|eye| 4 * hidden(eye) <= all);
         let eye = seen.or_else(|| eyes.iter().min_by_key(|eye| hidden(eye))).copied().unwrap_or(eyes[0]);
         Self { eye, target }
+    }
+
+    /// A place for words beside the work (m, world), where they cover nothing.
+    pub fn beside(&self) -> Vector3<f64> {
+        let sight = self.target - self.eye;
+        let right = sight.cross(&Vector3::z()).normalize();
+        self.target + sight.norm() * (right * BESIDE[0] + right.cross(&sight.normalize()) * BESIDE[1])
     }
 }
 
@@ -101,6 +111,19 @@ mod tests {
         let away = vec![Isometry3::translation(-5.0, 0.0, 0.0)];
         let camera = Camera::on(&work(away), &[wall()], &Parameters::default());
         assert!((camera.eye - camera.target - EYES_FROM_TARGET_M[0]).norm() < 1e-12, "the eye stays in front: {camera:?}");
+    }
+
+    /// Words are as far to the right and as high in the picture from wherever it is taken.
+    #[test]
+    fn words_are_at_the_same_place_of_every_picture() {
+        for (eye, target) in [([1.1, 0.7, 0.3], [0.0; 3]), ([0.3, -0.2, 2.0], [0.4, 0.1, 0.1])] {
+            let camera = Camera { eye: eye.into(), target: target.into() };
+            let view = nalgebra::Isometry3::look_at_rh(&camera.eye.into(), &camera.target.into(), &Vector3::z());
+            let seen = view * Point3::from(camera.beside());
+            let distance = (camera.target - camera.eye).norm();
+            let expected = Vector3::new(BESIDE[0], BESIDE[1], -1.0) * distance;
+            assert!((seen.coords - expected).norm() < 1e-12, "{seen}");
+        }
     }
 
     #[test]

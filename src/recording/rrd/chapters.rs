@@ -15,9 +15,13 @@ use super::{
 use crate::learning::ShapingKind;
 use crate::robot::{RobotModel, Shape};
 use crate::simulation::{Experiment, LessonRecord, RunOutcome};
+use crate::world::support_height_m;
 
 /// The application that the viewer keeps the layout for.
 pub(super) const APPLICATION: &str = "cpdmp";
+
+/// Usual height of a table (m).
+const TABLE_HEIGHT_M: f64 = 0.75;
 
 /// One recording.
 pub(super) struct Chapters<'a> {
@@ -33,8 +37,8 @@ impl Chapters<'_> {
     /// The layout that the recording opens with; with a page for the lessons when there are some.
     pub fn layout(&self, robot: &RobotModel, taught: bool, play: PlayState) -> Result<(), Fault> {
         let shown = Shown {
-            camera: Camera::on(&self.work, &self.experiment.objects, &self.experiment.parameters),
-            floor_m: floor_m(robot),
+            camera: self.camera(),
+            floor_m: self.floor_m(robot),
             way_m: self.work.size,
             taught,
             baseline: baseline::compares(self.experiment),
@@ -69,7 +73,7 @@ impl Chapters<'_> {
         robot_figure::log_robot(&recorder, &outcome.robot, records)?;
         scene_figure::log_objects(&recorder, self.experiment, records)?;
         paths::log_executed(&recorder, records)?;
-        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.work.middle))?;
+        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.camera().beside()))?;
         force_figure::log_forces(&recorder, records, outcome.skill.force.is_some())?;
         lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
@@ -84,10 +88,22 @@ impl Chapters<'_> {
     fn recorder(&self, records: &[crate::simulation::StepRecord]) -> Recorder {
         Recorder::new(self.stream.clone(), records, self.experiment.physics.step_s, self.duration_s)
     }
+
+    fn camera(&self) -> Camera {
+        Camera::on(&self.work, &self.experiment.objects, &self.experiment.parameters)
+    }
+
+    /// Height of the floor (m): that of the lowest point of the robot's fixed body. A robot that shows no body down to there stands on the
+    /// floor on which a table of usual height does.
+    fn floor_m(&self, robot: &RobotModel) -> f64 {
+        let support_m = support_height_m(&self.experiment.objects, &self.experiment.parameters);
+        let lowest_m = lowest_m(robot);
+        if lowest_m <= support_m { lowest_m } else { support_m - TABLE_HEIGHT_M }
+    }
 }
 
-/// Height of the floor: the lowest point of the robot's fixed body (m), at most the height of its base.
-fn floor_m(robot: &RobotModel) -> f64 {
+/// Height of the lowest point of the robot's fixed body (m), at most the height of its base.
+fn lowest_m(robot: &RobotModel) -> f64 {
     let reach = |shape: &Shape| match shape {
         Shape::Box { half_extents } => half_extents.z,
         Shape::Sphere { radius } => *radius,

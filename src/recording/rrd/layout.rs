@@ -71,7 +71,7 @@ fn execution(views: &mut Views, shown: &Shown) -> Result<Horizontal, Fault> {
     let mut right: Vec<ContainerLike> = vec![first.into(), second.into(), Tabs::new(more(views, axes)?).into()];
     let mut shares = vec![1.0, 1.0, 1.25];
     if shown.states {
-        let title = "How far demonstrations disagree in the active state (orange), threshold sigma (white); mm or mrad";
+        let title = "How far demonstrations disagree in the active state (orange), threshold sigma (purple); mm or mrad";
         right.push(views.plot(title, "plots/spread")?.into());
         shares.push(0.7);
     }

@@ -102,7 +102,7 @@ fn told(guidance: Guidance) -> &'static str {
     match guidance {
         Guidance::OneSide => "",
         Guidance::WithSide => ", side told",
-        Guidance::WithoutSide => ", side not told",
+        Guidance::WithoutSide => ", not told",
     }
 }
 

@@ -18,9 +18,6 @@ pub(super) const DEVIATIONS: f64 = 2.0;
 /// Half axes of ellipsoids are at least this long (m), or those of states on which all agree could not be seen.
 const THINNEST_M: f64 = 0.004;
 
-/// From the middle of the way of the tool to the label of the active state (m): beside the scene, where it covers nothing.
-const LABEL_FROM_MIDDLE_M: Vector3<f64> = Vector3::new(0.0, 0.6, 0.3);
-
 /// Points of half an ellipse.
 pub(super) const POINTS: usize = 41;
 
@@ -38,13 +35,13 @@ pub(super) fn log_states(recorder: &Recorder, experiment: &Experiment, outcome: 
     Ok(())
 }
 
-/// Logs the active state of some records when it changes. `middle` is that of the way of the tool.
+/// Logs the active state of some records when it changes, its name at the place `beside` the work (m, world).
 pub(super) fn log_active(
     recorder: &Recorder,
     experiment: &Experiment,
     outcome: &RunOutcome,
     records: &[StepRecord],
-    (duration_s, middle): (f64, Vector3<f64>),
+    (duration_s, beside): (f64, Vector3<f64>),
 ) -> Result<(), Fault> {
     let states = &states(experiment, outcome, duration_s)?;
     if states.is_empty() {
@@ -59,7 +56,7 @@ pub(super) fn log_active(
     let suffix = |beta: f64| if unheard && beta != 0.0 { ", but the coupling is off" } else { "" };
     let label = |i: &usize| format!("state {i}: {}{}", beta_in_words(states[*i].beta), suffix(states[*i].beta));
     let labels = Points3D::update_fields()
-        .with_positions(active.iter().map(|_| convert::vector(&(middle + LABEL_FROM_MIDDLE_M))))
+        .with_positions(active.iter().map(|_| convert::vector(&beside)))
         .with_labels(active.iter().map(label))
         .with_colors(active.iter().map(|i| palette::light(beta_color(states[*i].beta))));
     recorder.at_times(ACTIVE_LABEL.path(), &times, labels.columns_of_unit_batches()?)?;
