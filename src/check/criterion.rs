@@ -24,7 +24,9 @@ pub enum Expectation {
     Report,
 }
 
-/// The questions that can be asked. All are answered from the simulated world, none from the plan.
+/// The questions that can be asked. They are answered from the simulated world, but for three that are about what the skill wants:
+/// [`Self::GoalReached`] and [`Self::ExpectedForce`] hold the world against the skill's goal and its expected force, and [`Self::ArcFollowed`] of
+/// the reference asks where the controller wants the tool.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CriterionKind {
     /// The object lies inside the container, at rest. Value: distance of the centres along x or y, whichever is larger (m); beyond the limit when
@@ -58,14 +60,16 @@ pub enum CriterionKind {
         /// The largest rms distance (m).
         max_m: f64,
     },
-    /// The handle in use stays in the hook from the start to the end. Value: largest horizontal distance of the tool from its axis (m).
+    /// The handle in use stays in the hook from the start to the end, as far as a horizontal distance tells: a bar is upright, and may slide along
+    /// the hook. Value: largest horizontal distance of the tool from its axis (m).
     HookKept {
         /// The cabinet's name.
         object: String,
         /// The largest distance (m): half the width of the hook's pocket, less what the bar needs.
         max_m: f64,
     },
-    /// The objects never push or pull harder on fingers and tool than this, as the engine solved it. Value: the largest force (N).
+    /// The objects never push or pull harder on fingers and tool than this, as the engine solved it: through a clamp, and by contact, normal to
+    /// the surfaces, without their friction. Value: the largest force (N).
     ToolForce {
         /// Over which time the force is averaged, rounded up to whole logged steps (s); 0: at every engine step. A blow of stiff parts is
         /// over within a step of the engine, so that its force says more about the step than about the blow: its momentum is what counts.
@@ -114,10 +118,12 @@ pub enum CriterionKind {
     /// touching pairs.
     NoCollision,
     /// The arm feels the force that the skill expects. Value: rms difference of the arm's own measured force from the expected one along one
-    /// axis, from the start of the skill to its end (N). Without a force model there is no answer.
+    /// axis, to the end of the skill (N). Without a force model, or without the touch from which it counts, there is no answer.
     ExpectedForce {
         /// The axis: 0, 1, 2 for x, y, z of the world.
         axis: usize,
+        /// From when on the difference counts.
+        from: CountsFrom,
         /// The largest rms difference (N).
         max_n: f64,
     },
@@ -167,6 +173,15 @@ pub enum CriterionKind {
         /// The largest change (m).
         max_m: f64,
     },
+}
+
+/// From when on a difference counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CountsFrom {
+    /// The start of the skill.
+    Start,
+    /// The first logged moment at which an object has touched fingers or tool.
+    Touch,
 }
 
 /// What follows an arc.

@@ -70,7 +70,7 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         }
         CriterionKind::PlanarCollides { .. } => (Answer::at_least(f64::NAN, 1.0, "settings"), false),
         CriterionKind::NoCollision => (no_collision(&outcome.collisions), true),
-        CriterionKind::ExpectedForce { axis, max_n } => (expected_force(outcome, *axis, *max_n), true),
+        CriterionKind::ExpectedForce { axis, from, max_n } => (expected_force(outcome, *axis, *from, *max_n), true),
         CriterionKind::ObjectAt { object, at, offset_m, max_m } => (object_at(outcome, object, at.as_deref(), *offset_m, *max_m), true),
         CriterionKind::GoalReached { max_m } => (goal_reached(outcome, *max_m), true),
         CriterionKind::HumanForce { max_n } => (human_force(outcome, *max_n), true),

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::CountsFrom;
 use super::judge::{Answer, first_time};
 use crate::simulation::{RunOutcome, StepRecord};
 use crate::world::ContactEpisode;
@@ -13,8 +14,10 @@ pub(super) fn no_collision(collisions: &[ContactEpisode]) -> Answer {
 }
 
 /// See [`CriterionKind::ExpectedForce`](super::CriterionKind::ExpectedForce). The skill's own time ends with the phase; what follows is not part of what it expects.
-pub(super) fn expected_force(outcome: &RunOutcome, axis: usize, max_n: f64) -> Answer {
-    let during = || outcome.steps.iter().filter(|step| step.time_fraction < 1.0);
+pub(super) fn expected_force(outcome: &RunOutcome, axis: usize, from: CountsFrom, max_n: f64) -> Answer {
+    let counts = |step: &StepRecord| from == CountsFrom::Start || step.tool_impulse != Vector3::zeros();
+    let first = outcome.steps.iter().position(counts).unwrap_or(outcome.steps.len());
+    let during = || outcome.steps[first..].iter().filter(|step| step.time_fraction < 1.0);
     let squared = |step: &StepRecord| (step.wrench[axis] - step.expected_force[axis]).powi(2);
     let rms = match outcome.skill.force {
         Some(_) => (during().map(squared).sum::<f64>() / during().count() as f64).sqrt(),

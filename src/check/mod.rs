@@ -14,7 +14,7 @@ mod tool_force;
 mod windows;
 
 pub use allowed_contact::{AllowedContact, allow};
-pub use criterion::{Criterion, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
+pub use criterion::{CountsFrom, Criterion, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 pub use judge::judge;
 pub use judge_motion::{judge_motion, not_judged};
 pub use judge_planar::judge_planar;

@@ -96,12 +96,14 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         SimulationError::Stopped { .. } => Outcome::TimeLimit,
         SimulationError::CutShort { reason, .. } => outcome_of(reason),
         SimulationError::Learning(error) => of_learning(error),
+        SimulationError::Several(errors) => errors.iter().map(outcome_of).max().unwrap_or(Outcome::InvalidInput),
         SimulationError::Demonstrations(DemonstrationError::Io { .. } | DemonstrationError::Invalid(_))
         | SimulationError::Urdf(_)
         | SimulationError::Arm(_)
         | SimulationError::Unreachable { .. }
         | SimulationError::Swing { .. }
         | SimulationError::JointCounts(_)
+        | SimulationError::JointLimits(_)
         | SimulationError::World(_)
         | SimulationError::Scene(_)
         | SimulationError::Wrench(_)

@@ -24,7 +24,7 @@ struct Checked<'a> {
     diagnostics: Vec<Diagnostic>,
     /// Why the robot or the dataset cannot be used.
     error: Option<String>,
-    /// What is odd about the robot's file.
+    /// What is odd about the robot's file, and what a recorded dataset does not show.
     warnings: Vec<String>,
 }
 
@@ -85,14 +85,15 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
     checked
 }
 
-/// Loads the robot and the dataset that the scenario names and looks whether the arm can go its way; what is odd about the robot.
+/// Loads the robot and the dataset that the scenario names and looks whether the arm can go its way; what is odd
+/// about the robot, and what the dataset does not show.
 pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outcome, String)> {
     match &scenario.work {
         Work::Planar(planar) => planar.check().map(|()| Vec::new()).map_err(|error| (of_learning(&error), error.to_string())),
         Work::Arm(experiment) => {
-            let checked = Setup::new(experiment).and_then(|setup| setup.preflight().map(|()| setup));
-            let setup = checked.map_err(|error| (outcome_of(&error), error.to_string()))?;
-            Ok(setup.warnings.iter().map(ToString::to_string).collect())
+            let checked = Setup::new(experiment).and_then(|setup| Ok((setup.preflight()?, setup)));
+            let (of_dataset, setup) = checked.map_err(|error| (outcome_of(&error), error.to_string()))?;
+            Ok(setup.warnings.iter().map(ToString::to_string).chain(of_dataset).collect())
         }
     }
 }

@@ -39,7 +39,7 @@ pub struct ArmRun<'a> {
     pub(super) duration_s: f64,
     /// What it planned.
     plan: Trajectory,
-    /// Its states in the setting; none for the baseline.
+    /// Its states in the setting, which comply as the coupling says; none for the baseline.
     pub(super) states: Vec<TaskSpaceState>,
     /// Ways on which doors of the scene lead their handles in use (m, world).
     pub(super) arcs: Vec<Vec<Point3<f64>>>,
@@ -119,7 +119,7 @@ fn coupled(mut states: Vec<TaskSpaceState>, question: &ExecutionSettings) -> Res
 /// The arc of a cabinet's handle in use about the hinge, from the closed door to the open one (m, world).
 fn handle_arc(object: &Object, objects: &[Object], parameters: &Parameters) -> Option<Vec<Point3<f64>>> {
     let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
-    let hinge = object.pose(parameters, support_height_m(objects, parameters));
+    let hinge = object.pose(parameters, support_height_m(objects, object, parameters));
     let handle = cabinet.handle(hinge.translation.y, parameters);
     let opening = |k: usize| cabinet.opening_max_rad * k as f64 / (ARC_POINTS - 1) as f64;
     Some((0..ARC_POINTS).map(|k| hinge * (door_turn(opening(k)) * handle)).collect())

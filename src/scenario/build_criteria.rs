@@ -1,7 +1,7 @@
 //! A filled tree to what a run must show.
 
 use super::tree::Node;
-use crate::check::{AllowedContact, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
+use crate::check::{AllowedContact, CountsFrom, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 use crate::planar::Method;
 
 /// What a scenario asks of the run.
@@ -66,7 +66,10 @@ fn criterion(table: &Node) -> Option<CriterionSpec> {
         },
         "planar_collides" => CriterionKind::PlanarCollides { method: method(table)?, settings: settings(table) },
         "no_collision" => CriterionKind::NoCollision,
-        "expected_force" => CriterionKind::ExpectedForce { axis: axis(table.text("axis"))?, max_n: table.number("max_n") },
+        "expected_force" => {
+            let from = if table.text("from") == "touch" { CountsFrom::Touch } else { CountsFrom::Start };
+            CriterionKind::ExpectedForce { axis: axis(table.text("axis"))?, from, max_n: table.number("max_n") }
+        }
         "object_at" => {
             CriterionKind::ObjectAt { object: object(), at: table.optional_text("at"), offset_m: table.array("offset_m"), max_m: max_m() }
         }

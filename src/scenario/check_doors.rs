@@ -24,6 +24,23 @@ pub(super) fn openings(scenario: &Node, teaching: &Node, faults: &mut Vec<Fault>
     }
 }
 
+/// Nobody leads the arm from one open door straight to another: what lies between them is carried along with neither.
+pub(super) fn one_door_at_a_time(scenario: &Node, teaching: &Node, faults: &mut Vec<Fault>) {
+    let open = |waypoint: &&Node| {
+        let opening = waypoint.get("opening_rad")?;
+        opening.as_number().filter(|angle| *angle != 0.0)?;
+        Some((opening.origin, cabinet(scenario, waypoint)?.name()?.to_owned()))
+    };
+    for pair in list(teaching, "waypoint").windows(2) {
+        if let (Some((_, from)), Some((origin, to))) = (open(&&pair[0]), open(&&pair[1]))
+            && from != to
+        {
+            let fault = Fault::at(Code::Conflict, origin, format!("the way goes from an opening of `{from}` straight to one of `{to}`"));
+            faults.push(fault.expected("a way-point without `opening_rad` between two doors"));
+        }
+    }
+}
+
 /// Cabinets stand square: their doors look at the robot.
 pub(super) fn square_cabinets(scenario: &Node, faults: &mut Vec<Fault>) {
     for object in list(scenario, "object").iter().filter(|object| is_cabinet(object)) {

@@ -1,7 +1,7 @@
 //! What no single key can tell: names that refer to something, times that rise, settings that agree with each other.
 
 use super::check_coupling::coupling;
-use super::check_doors::{handles_on_doors, openings, square_cabinets};
+use super::check_doors::{handles_on_doors, one_door_at_a_time, openings, square_cabinets};
 use super::check_learning::ends_of_no_baseline;
 use super::check_names::{references, unique_names};
 use super::check_planar::planar;
@@ -30,6 +30,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
         parameters_are_taught(scenario, teaching, &mut faults);
         waypoints(teaching, &mut faults);
         openings(scenario, teaching, &mut faults);
+        one_door_at_a_time(scenario, teaching, &mut faults);
     }
     joints(scenario, &mut faults);
     scenario.get("learning").into_iter().for_each(|learning| ends_of_no_baseline(learning, &mut faults));

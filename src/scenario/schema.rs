@@ -240,8 +240,8 @@ const CABINET: &[Key] = &[
     Key::new("door_size_m", Vector(within("m", 0.05, 2.0), Exactly(2)), "width (from the hinge, along -y) and height of the door"),
     Key::new("bottom_height_m", Number(within("m", -2.0, 2.0)), "height of the door's lower edge above what the cabinet stands on"),
     Key::new("depth_m", Number(within("m", 0.05, 2.0)), "depth behind the door").or_number(0.3),
-    Key::new("mass_kg", Number(within("kg", 0.1, 50.0)), "mass of the door").or_number(3.0),
-    Key::new("friction_nm", Number(within("N m", 0.0, 20.0)), "dry friction of the hinge").or_number(0.3),
+    Key::new("mass_kg", Quantity(within("kg", 0.1, 50.0)), "mass of the door").or_number(3.0),
+    Key::new("friction_nm", Quantity(within("N m", 0.0, 20.0)), "dry friction of the hinge").or_number(0.3),
     Key::new("damping_nms_per_rad", Number(within("N m s/rad", 0.0, 50.0)), "damping of the hinge").or_number(0.5),
     Key::new("seal_nm_per_rad", Number(within("N m/rad", 0.0, 1e4)), "stiffness of the seal that the closing door presses").or_number(20.0),
     Key::new("seal_travel_rad", Number(within("rad", 0.0, 0.2)), "how far the seal yields before the door stands still").or_number(0.05),
@@ -554,7 +554,11 @@ const CRITERION: Shape = Shape {
                     "over which time the force is averaged, rounded up to whole logged steps; 0: every step of the engine",
                 )
                 .or_number(0.0),
-                Key::new("max_n", Number(within("N", 0.0, 1000.0)), "largest force of the objects on fingers and tool"),
+                Key::new(
+                    "max_n",
+                    Number(within("N", 0.0, 1000.0)),
+                    "largest force of the objects on fingers and tool: of a clamp, and of contacts normal to the surfaces, without their friction",
+                ),
             ],
         },
         Variant {
@@ -594,6 +598,8 @@ const CRITERION: Shape = Shape {
             kind: "expected_force",
             keys: &[
                 Key::new("axis", Choice(&["x", "y", "z"]), "along which axis of the world"),
+                Key::new("from", Choice(&["start", "touch"]), "whether it counts from the start of the skill, or from the first touch on")
+                    .or(Preset::Text("start")),
                 Key::new("max_n", Number(within("N", 0.0, 500.0)), "largest rms difference of the measured from the expected force"),
             ],
         },

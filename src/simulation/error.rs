@@ -17,9 +17,7 @@ pub enum SimulationError {
     #[error(transparent)]
     Arm(#[from] ArmModelError),
     /// A pose of the plan cannot be reached.
-    #[error(
-        "{what} cannot be reached: the arm ends {position_mm:.1} mm and {angle_deg:.1} deg away, {joint}; move the object or the way-point"
-    )]
+    #[error("{what} cannot be reached: the arm ends {position_mm:.1} mm and {angle_deg:.1} deg away, {joint}; {help}")]
     Unreachable {
         /// Which pose.
         what: String,
@@ -29,10 +27,12 @@ pub enum SimulationError {
         angle_deg: f64,
         /// The joint that stops it, in words.
         joint: String,
+        /// What to do.
+        help: &'static str,
     },
     /// On the way from one pose of the plan to the next, the arm would have to swing into another posture.
     #[error(
-        "{what} cannot be reached without swinging the arm: joint `{joint}` would turn by {turn_deg:.0} deg within {within_s} s; move the object or the way-point, or give another `robot.rest_posture_rad`"
+        "{what} cannot be reached without swinging the arm: joint `{joint}` would turn by {turn_deg:.0} deg within {within_s} s; {help}, or give another `robot.rest_posture_rad`"
     )]
     Swing {
         /// Which pose.
@@ -43,10 +43,18 @@ pub enum SimulationError {
         turn_deg: f64,
         /// In which time (s).
         within_s: f64,
+        /// What to do.
+        help: &'static str,
     },
     /// Lists of the scenario have another length than the robot's arms, one sentence each.
     #[error("{}", .0.join("\n"))]
     JointCounts(Vec<String>),
+    /// Postures are beyond the limits of joints, one sentence each.
+    #[error("{}", .0.join("\n"))]
+    JointLimits(Vec<String>),
+    /// Several things are wrong at once.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Several(Vec<SimulationError>),
     /// The skill takes a wrench that the arm does not measure.
     #[error(transparent)]
     Wrench(#[from] UnmeasuredWrench),

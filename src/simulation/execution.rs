@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::person::helper;
+use super::preflight::starts_apart;
 use super::setup::Setup;
 use super::step_loop::{Phase, Published, StepLoop};
 use super::{FinalObject, Progress, SimulationError, StepRecord};
@@ -38,7 +39,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, progress: &dyn Progress) -> 
     let goal = setup.tool_at(execution.goal().as_slice()).translation.vector;
     let (posture, follower) = setup.follower(&execution)?;
 
-    let mut world = setup.world(&experiment.parameters, &posture, true)?;
+    let mut world = starts_apart(setup.world(&experiment.parameters, &posture, true), "the skill's start")?;
     let step_s = experiment.physics.step_s;
     let feedback = (experiment.execution.feedback, setup.arm());
     let mut controller = SkillController::new(skill, execution, follower, setup.observer(), feedback, step_s)?;

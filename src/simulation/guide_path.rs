@@ -1,7 +1,8 @@
 //! Where a person wants the gripper to be: a smooth way through way-points, a little different each time.
 //!
 //! A way-point may be at an opening of a door. The way is then thought out with the door closed, the opening being one more coordinate of it,
-//! and carried along with the door: between two openings it is an arc about the hinge.
+//! and carried along with the door: between two openings of one door it is an arc about its hinge. From one open door to another there is no
+//! such way: a way-point at no opening lies between them.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3, Vector4};
 use rand_chacha::ChaCha8Rng;
@@ -20,8 +21,8 @@ pub(super) struct GuidePath {
     velocities: Vec<Vector4<f64>>,
     /// Openings commanded from each knot on.
     gripper: Vec<f64>,
-    /// A point on the hinge of the scene's door (m).
-    hinge: Vector3<f64>,
+    /// Of each knot at which a door is open: a point on that door's hinge (m).
+    hinges: Vec<Option<Vector3<f64>>>,
     /// Orientation with the door closed, and how far it turns with the door (0 … 1).
     orientation: UnitQuaternion<f64>,
     turns_with_door: f64,
@@ -43,20 +44,19 @@ pub(super) struct GuidePoint {
 impl GuidePath {
     /// The way of one demonstration in the setting `parameters`; `variation` draws how this one differs from the others.
     pub(super) fn new(plan: &TeachingPlan, objects: &[Object], parameters: &Parameters, variation: &mut ChaCha8Rng) -> Self {
-        let support = support_height_m(objects, parameters);
         let mut path = Self {
             times_s: Vec::new(),
             points: Vec::new(),
             velocities: Vec::new(),
             gripper: Vec::new(),
-            hinge: hinge(objects, parameters),
+            hinges: Vec::new(),
             orientation: tool_orientation(plan.tool_yaw_rad, plan.tool_pitch_rad, plan.tool_roll_rad),
             turns_with_door: plan.turns_with_door,
         };
         let mut gripper = 1.0;
         let mut dwell: Option<(&Waypoint, Vector4<f64>)> = None;
         for waypoint in &plan.waypoints {
-            let place = anchor(waypoint, objects, parameters, support) + Vector3::from(waypoint.offset_m);
+            let place = anchor(waypoint, objects, parameters) + Vector3::from(waypoint.offset_m);
             let draw = Vector3::from_fn(|_, _| plan.position_spread_m * bounded_normal(variation));
             // A dwell (the same place twice) keeps its place.
             let point = match dwell {
@@ -67,6 +67,7 @@ impl GuidePath {
             let shift = plan.timing_spread * plan.duration_s * bounded_normal(variation);
             path.times_s.push(waypoint.time_s + if waypoint.time_s > 0.0 { shift } else { 0.0 });
             path.points.push(point);
+            path.hinges.push(hinge(waypoint, objects, parameters));
             gripper = waypoint.gripper.unwrap_or(gripper);
             path.gripper.push(gripper);
         }
@@ -97,22 +98,23 @@ impl GuidePath {
         let after = self.times_s.partition_point(|t| *t <= time_s);
         if after == 0 || after == self.times_s.len() {
             let end = after.saturating_sub(1);
-            return self.carried(self.points[end], Vector4::zeros(), self.gripper[end]);
+            return self.carried(self.points[end], Vector4::zeros(), self.hinges[end], self.gripper[end]);
         }
         let (a, b) = (after - 1, after);
         let span = self.times_s[b] - self.times_s[a];
         let r = (time_s - self.times_s[a]) / span;
         let (p, v) = quintic(r, span, (self.points[a], self.velocities[a]), (self.points[b], self.velocities[b]));
-        self.carried(p, v, self.gripper[a])
+        self.carried(p, v, self.hinges[a].or(self.hinges[b]), self.gripper[a])
     }
 
-    /// A place of the closed door (m, and the opening in rad) with its velocity, carried along with the door.
-    fn carried(&self, point: Vector4<f64>, velocity: Vector4<f64>, gripper: f64) -> GuidePoint {
+    /// A place of the closed door (m, and the opening in rad) with its velocity, carried along with the door about `hinge` (m). Where no door
+    /// is open, there is none and no need of one.
+    fn carried(&self, point: Vector4<f64>, velocity: Vector4<f64>, hinge: Option<Vector3<f64>>, gripper: f64) -> GuidePoint {
+        let hinge = hinge.unwrap_or_default();
         let turn = door_turn(point.w);
         let angular_velocity = -Vector3::z() * velocity.w;
-        let arm = turn * (point.xyz() - self.hinge);
-        let pose =
-            Isometry3::from_parts(Translation3::from(self.hinge + arm), door_turn(self.turns_with_door * point.w) * self.orientation);
+        let arm = turn * (point.xyz() - hinge);
+        let pose = Isometry3::from_parts(Translation3::from(hinge + arm), door_turn(self.turns_with_door * point.w) * self.orientation);
         let linear_velocity = turn * velocity.xyz() + angular_velocity.cross(&arm);
         GuidePoint { pose, linear_velocity, angular_velocity: self.turns_with_door * angular_velocity, gripper }
     }
@@ -122,10 +124,11 @@ fn same_place(a: &Waypoint, b: &Waypoint) -> bool {
     a.at == b.at && a.offset_m == b.offset_m && a.opening_rad == b.opening_rad
 }
 
-/// A point on the hinge of the scene's door (m); the origin without one.
-fn hinge(objects: &[Object], parameters: &Parameters) -> Vector3<f64> {
-    let door = objects.iter().find(|object| matches!(object.kind, ObjectKind::Cabinet(_)));
-    door.map_or_else(Vector3::zeros, |object| object.center(parameters).push(0.0))
+/// A point on the hinge of the door at which the way-point lies (m); none when that door is closed, or it lies at no door.
+fn hinge(waypoint: &Waypoint, objects: &[Object], parameters: &Parameters) -> Option<Vector3<f64>> {
+    waypoint.opening_rad.filter(|opening| *opening != 0.0)?;
+    let door = objects.iter().find(|object| Some(&object.name) == waypoint.at.as_ref())?;
+    matches!(door.kind, ObjectKind::Cabinet(_)).then(|| door.center(parameters).push(0.0))
 }
 
 /// The quintic from `a` to `b` (place, velocity; zero acceleration at both) at fraction `r` of `span` seconds.
@@ -151,7 +154,7 @@ fn bounded_normal(random: &mut ChaCha8Rng) -> f64 {
     math::standard_normal(random).clamp(-2.0, 2.0)
 }
 
-fn anchor(waypoint: &Waypoint, objects: &[Object], parameters: &Parameters, support: f64) -> Vector3<f64> {
+fn anchor(waypoint: &Waypoint, objects: &[Object], parameters: &Parameters) -> Vector3<f64> {
     let object = waypoint.at.as_ref().and_then(|name| objects.iter().find(|object| &object.name == name));
-    object.map_or_else(Vector3::zeros, |object| object.anchor(parameters, support).coords)
+    object.map_or_else(Vector3::zeros, |object| object.anchor(parameters, support_height_m(objects, object, parameters)).coords)
 }

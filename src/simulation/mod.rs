@@ -7,6 +7,7 @@ mod error;
 mod execution;
 mod experiment;
 mod guide_path;
+mod joint_limits;
 mod lesson_record;
 mod motion_check;
 mod outcome;

@@ -1,36 +1,64 @@
 //! What can be known before the first step: can the way be reached, does everything stand apart, do the demonstrations fit.
 
+use std::path::Path;
+
 use super::guide_path::GuidePath;
 use super::setup::Setup;
 use super::space::{PLACE_COLUMNS, first_pose};
 use super::teaching::settings_of;
 use super::{DemonstrationSource, MotionSpace, SimulationError, TeachingPlan};
 use crate::control::WRENCH_COLUMNS;
-use crate::demonstration::Dataset;
+use crate::demonstration::{Dataset, Demonstration};
 use crate::learning::cpdmp::ForceCoupling;
 use crate::learning::{ShapingKind, wrench_columns};
 use crate::math;
-use crate::world::{Object, ObjectKind, Parameters, WorldError};
+use crate::world::{ObjectKind, Parameters, World, WorldError};
 
 impl Setup {
-    /// Checks everything that needs no simulation: the way of every lesson and of the execution can be gone, nothing starts inside something
-    /// else or hangs in the air, handles are on their doors, a recorded dataset fits the experiment.
+    /// Checks everything that needs no simulation: postures are within the limits of the joints, the way of every lesson and of the execution
+    /// can be gone, nothing starts inside something else or hangs in the air, handles are on their doors, a recorded dataset fits the
+    /// experiment. Returns warnings about a dataset.
     ///
     /// # Errors
-    /// The first thing that is wrong.
-    pub fn preflight(&self) -> Result<(), SimulationError> {
-        let folder = match &self.experiment.demonstrations {
-            DemonstrationSource::Teach(plan) => return self.lessons_can_be_led(plan),
-            DemonstrationSource::Dataset(folder) => folder,
+    /// The postures that are wrong, and the first other thing that is.
+    pub fn preflight(&self) -> Result<Vec<String>, SimulationError> {
+        let scene = match &self.experiment.demonstrations {
+            DemonstrationSource::Teach(plan) => self.lessons_can_be_led(plan).map(|()| Vec::new()),
+            DemonstrationSource::Dataset(folder) => self.dataset_can_be_used(folder),
         };
+        match (self.postures_within_limits(), scene) {
+            (Err(postures), Err(scene)) => Err(SimulationError::Several(vec![postures, scene])),
+            (postures, scene) => postures.and(scene),
+        }
+    }
+
+    /// Reads the dataset in `folder` for the experiment, in the scene of the execution; returns what is outside what it shows.
+    fn dataset_can_be_used(&self, folder: &Path) -> Result<Vec<String>, SimulationError> {
         let dataset = self.in_space(Dataset::read(folder)?)?;
         self.fits(&dataset)?;
         self.stands(&self.experiment.parameters)?;
         if let Some(start) = dataset.demonstrations.first().and_then(|lesson| first_pose(&lesson.trajectory)) {
-            let posture = self.posture(&start, "the start of the demonstrations")?;
-            self.world(&self.experiment.parameters, &posture, false)?;
+            let posture = self.posture(&start, "the start of the demonstrations", RECORD_AGAIN)?;
+            let built = self.world(&self.experiment.parameters, &posture, false);
+            starts_apart(built, "the start of the demonstrations")?;
         }
-        Ok(())
+        Ok(self.undemonstrated(&dataset))
+    }
+
+    /// A warning for every parameter that the experiment gives a value outside those of the demonstrations.
+    fn undemonstrated(&self, dataset: &Dataset) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (name, asked) in &self.experiment.parameters.0 {
+            let theta =
+                |one: &Demonstration| one.theta_m.iter().chain(&one.theta_f).find(|(known, _)| known == name).map(|(_, value)| *value);
+            let shown: Vec<f64> = dataset.demonstrations.iter().filter_map(theta).collect();
+            let (low, high) =
+                shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
+            if !shown.is_empty() && !(low..=high).contains(asked) {
+                warnings.push(format!("`{name}` is {asked}, but was demonstrated from {low} to {high} only: the skill extrapolates"));
+            }
+        }
+        warnings
     }
 
     /// Whether the columns and parameters of a dataset are those that the experiment needs.
@@ -89,10 +117,7 @@ impl Setup {
         let mut variation = math::stream(self.experiment.seed, "human", number);
         let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
         let start = self.can_go(plan, &path, whose)?;
-        match self.world(parameters, &start, false) {
-            Err(SimulationError::World(overlap @ WorldError::Overlap { .. })) => Err(SimulationError::Scene(format!("{whose}: {overlap}"))),
-            built => built.map(|_| ()),
-        }
+        starts_apart(self.world(parameters, &start, false), whose).map(|_| ())
     }
 
     /// Everything that can fall lies on a table: there is no floor. Handles are on their doors.
@@ -107,7 +132,7 @@ impl Setup {
                 return Err(SimulationError::Scene(format!("{what}: change `handle_lateral_m` or `door_size_m`")));
             }
         }
-        let hanging = objects.iter().filter(|o| o.is_free()).find(|o| !objects.iter().any(|table| carries(table, o, parameters)));
+        let hanging = objects.iter().filter(|o| o.is_free()).find(|o| !objects.iter().any(|table| table.carries(o, parameters)));
         match hanging {
             None => Ok(()),
             Some(object) => {
@@ -122,8 +147,13 @@ impl Setup {
     }
 }
 
-fn carries(table: &Object, object: &Object, parameters: &Parameters) -> bool {
-    let ObjectKind::Table { size_m, .. } = &table.kind else { return false };
-    let away = object.center(parameters) - table.center(parameters);
-    away.x.abs() <= size_m.x / 2.0 && away.y.abs() <= size_m.y / 2.0
+/// What helps when the arm cannot be where recorded demonstrations begin.
+const RECORD_AGAIN: &str = "record them with this robot, or describe the one that they were recorded with";
+
+/// A world in which nothing starts inside something else; `whose` start it is, the error says.
+pub(super) fn starts_apart(built: Result<World, SimulationError>, whose: &str) -> Result<World, SimulationError> {
+    match built {
+        Err(SimulationError::World(overlap @ WorldError::Overlap { .. })) => Err(SimulationError::Scene(format!("{whose}: {overlap}"))),
+        built => built,
+    }
 }

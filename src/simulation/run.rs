@@ -47,7 +47,7 @@ pub fn demonstrate(setup: &Setup, progress: &dyn Progress) -> Result<(Dataset, H
 /// Executes a learned skill in the experiment's setting; `history` is what came before.
 ///
 /// # Errors
-/// When the skill does not fit the experiment or its start cannot be reached; [`SimulationError::CutShort`] when the simulation diverges or is
+/// When the skill does not fit the experiment or the arm cannot follow its plan; [`SimulationError::CutShort`] when the simulation diverges or is
 /// stopped.
 pub fn perform(
     setup: &Setup,
@@ -58,6 +58,7 @@ pub fn perform(
 ) -> Result<RunOutcome, SimulationError> {
     let started = progress.elapsed_s();
     let mut outcome = planned(setup, dataset, learned, std::mem::take(&mut history.lessons))?;
+    setup.can_follow(&outcome.plan)?;
     progress.planned(&outcome);
     progress.phase("execute", 0);
     let executed = execute(setup, &learned.skill, progress)?;

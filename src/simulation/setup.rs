@@ -64,8 +64,8 @@ fn load(path: &Path, settings: &RobotSettings) -> Result<Loaded, SimulationError
     Ok(robot::load(path, &LoadOptions { attachments: vec![tool], ..options })?)
 }
 
-/// The error of a pose that `arm` does not reach: `q` is as near as it comes.
-pub(super) fn unreachable(arm: &ArmModel, outcome: &IkOutcome, q: &[f64], what: &str) -> SimulationError {
+/// The error of a pose that `arm` does not reach: `q` is as near as it comes; `help` is what to do.
+pub(super) fn unreachable(arm: &ArmModel, outcome: &IkOutcome, q: &[f64], what: &str, help: &'static str) -> SimulationError {
     let joint = match outcome.limiting_joint {
         Some(index) => format!("with joint `{}` at its limit", arm.joint_name(index)),
         None => format!("with joint `{}` the nearest to its limit", arm.nearest_to_limit(q)),
@@ -75,6 +75,7 @@ pub(super) fn unreachable(arm: &ArmModel, outcome: &IkOutcome, q: &[f64], what: 
         position_mm: outcome.position_error_m * 1e3,
         angle_deg: outcome.orientation_error_rad.to_degrees(),
         joint,
+        help,
     }
 }
 
@@ -101,6 +102,16 @@ impl Setup {
         };
         check_lengths(settings, arm.joints(), idle.as_ref().map(ArmModel::joints))?;
         Ok(Self { experiment: experiment.clone(), robot: loaded.model, warnings: loaded.warnings, arm, idle })
+    }
+
+    /// The working arm's model.
+    pub(super) fn working(&self) -> &ArmModel {
+        &self.arm
+    }
+
+    /// The other arm's model, if it moves.
+    pub(super) fn idle(&self) -> Option<&ArmModel> {
+        self.idle.as_ref()
     }
 
     /// A copy of the working arm's model.
@@ -135,12 +146,12 @@ impl Setup {
         EffortSensors::new(&self.experiment.robot.sensor, self.arm.joints(), self.experiment.seed, run)
     }
 
-    /// Joint angles at which the tool is at `base_from_tool`; `what` names the pose in the error.
-    pub(super) fn posture(&self, base_from_tool: &Isometry3<f64>, what: &str) -> Result<Vec<f64>, SimulationError> {
+    /// Joint angles at which the tool is at `base_from_tool`; in the error, `what` names the pose and `help` says what to do.
+    pub(super) fn posture(&self, base_from_tool: &Isometry3<f64>, what: &str, help: &'static str) -> Result<Vec<f64>, SimulationError> {
         let mut arm = self.arm();
         let mut q = vec![0.0; arm.joints()];
         let outcome = arm.reach(base_from_tool, &mut q);
-        if outcome.converged { Ok(q) } else { Err(unreachable(&arm, &outcome, &q, what)) }
+        if outcome.converged { Ok(q) } else { Err(unreachable(&arm, &outcome, &q, what, help)) }
     }
 
     /// The joints of the working arm, from the shoulder.

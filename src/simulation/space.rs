@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, Isometry3, Translation3, UnitQuaternion};
 
+use super::reachable::ASK_NEARER;
 use super::setup::Setup;
 use super::{MotionSpace, SimulationError};
 use crate::control::Follower;
@@ -55,7 +56,7 @@ impl Setup {
         }
         let orientation = start.orientation.unwrap_or_else(|| pointing_down(0.0));
         let place = Translation3::new(start.position[0], start.position[1], start.position[2]);
-        let posture = self.posture(&Isometry3::from_parts(place, orientation), "the skill's start")?;
+        let posture = self.posture(&Isometry3::from_parts(place, orientation), "the skill's start", ASK_NEARER)?;
         Ok((posture, Follower::Tool { tracker: self.tracker(), orientation }))
     }
 

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::guide_path::GuidePath;
 use super::person::Teacher;
+use super::reachable::MOVE;
 use super::setup::Setup;
 use super::space::joint_columns;
 use super::step_loop::{Phase, Published, StepLoop};
@@ -57,7 +58,7 @@ pub(super) fn teach(
     let experiment = &setup.experiment;
     let mut variation = math::stream(experiment.seed, "human", number);
     let path = GuidePath::new(plan, &experiment.objects, parameters, &mut variation);
-    let start_posture = setup.posture(&path.at(0.0).pose, "the first way-point")?;
+    let start_posture = setup.posture(&path.at(0.0).pose, "the first way-point", MOVE)?;
     let mut world = setup.world(parameters, &start_posture, false)?;
     let mut teacher = Teacher::new(&experiment.human, path.clone(), &world);
     let mut controller = ZeroGravity::new(setup.arm(), plan.zero_gravity_damping_nms_per_rad);

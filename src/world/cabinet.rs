@@ -18,9 +18,9 @@ pub struct Cabinet {
     /// Depth of the cabinet behind the door (m).
     pub depth_m: f64,
     /// Mass of the door, evenly spread (kg).
-    pub mass_kg: f64,
+    pub mass_kg: Quantity,
     /// Dry friction of the hinge (N m).
-    pub friction_nm: f64,
+    pub friction_nm: Quantity,
     /// Damping of the hinge (N m s/rad).
     pub damping_nms_per_rad: f64,
     /// Stiffness of the seal that the closing door presses against the walls (N m/rad).

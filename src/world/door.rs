@@ -72,15 +72,20 @@ pub(super) fn build(
         insert(engine, &fixed, &part, 0.0, false, parts);
     }
     let moving = Owned { layer: Layer::Movable, body: door, ..fixed };
-    insert(engine, &moving, &cabinet.panel(), cabinet.mass_kg, false, parts);
+    insert(engine, &moving, &cabinet.panel(), cabinet.mass_kg.resolve(parameters), false, parts);
     for part in cabinet.handle_parts(world_from_hinge.translation.y, parameters) {
         insert(engine, &moving, &part, 0.0, true, parts);
     }
-    hang(engine, cabinet, walls, door)
+    hang(engine, cabinet, parameters, (walls, door))
 }
 
 /// Puts the door on its hinge. The joint's own axis is its frames' x, which points down: the door opens with a positive angle.
-fn hang(engine: &mut PhysicsWorld, cabinet: &Cabinet, walls: RigidBodyHandle, door: RigidBodyHandle) -> Option<Door> {
+fn hang(
+    engine: &mut PhysicsWorld,
+    cabinet: &Cabinet,
+    parameters: &Parameters,
+    (walls, door): (RigidBodyHandle, RigidBodyHandle),
+) -> Option<Door> {
     let down =
         Isometry3::from_parts(Vector3::zeros().into(), UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_2));
     let hinge = GenericJointBuilder::new(JointAxesMask::LOCKED_REVOLUTE_AXES)
@@ -101,7 +106,7 @@ fn hang(engine: &mut PhysicsWorld, cabinet: &Cabinet, walls: RigidBodyHandle, do
     multibody.update_rigid_bodies(bodies, true);
     // Only now is the hinge the first degree of freedom: until its root is known to be fixed, that has six of its own.
     multibody.damping_mut()[0] = cabinet.damping_nms_per_rad;
-    multibody.frictions_mut()[0] = cabinet.friction_nm;
+    multibody.frictions_mut()[0] = cabinet.friction_nm.resolve(parameters);
     Some(Door { body: door, joint, seal_nm_per_rad: cabinet.seal_nm_per_rad })
 }
 

@@ -1,7 +1,7 @@
-//! A hook at a cabinet's handle: the clamp that closes around a bar, and what the door does to it.
+//! A hook at the handles of cabinets: the clamp that closes around a bar, and what the door does to it.
 
 use nalgebra::{Isometry3, Point3, Vector3};
-use rapier3d_f64::prelude::{ImpulseJointHandle, PhysicsWorld, RigidBodyHandle, SphericalJointBuilder};
+use rapier3d_f64::prelude::{ImpulseJointHandle, IntegrationParameters, PhysicsWorld, RigidBodyHandle, SphericalJointBuilder};
 
 use super::cabinet::{Cabinet, Grip};
 use super::{Parameters, convert};
@@ -12,20 +12,25 @@ const REACH_M: f64 = 0.01;
 /// How long the closing clamp takes to draw the bar to its middle (s).
 const CENTRING_S: f64 = 0.5;
 
-/// A hook that can hold the door of one cabinet.
+/// A hook that can hold the handles of doors.
 pub(super) struct Hook {
-    grip: Grip,
-    door: RigidBodyHandle,
     tool_body: RigidBodyHandle,
     body_from_tool: Isometry3<f64>,
-    /// The middles of the bars, in the door's frame, and half their length (m).
-    bars: Vec<Point3<f64>>,
-    half_length_m: f64,
+    /// What its clamp may close around.
+    bars: Vec<Bar>,
     /// Whether the hook is told to close.
     pub closed: bool,
     clamp: Option<Clamp>,
     /// Force by the door on the hook through the clamp in the last step (N, world).
     pub force: Vector3<f64>,
+}
+
+/// A handle's bar.
+struct Bar {
+    door: RigidBodyHandle,
+    /// Its middle, in the door's frame, and half its length (m).
+    middle: Point3<f64>,
+    half_length_m: f64,
 }
 
 /// A closed clamp: a ball joint between the hook's middle and a point of the door that moves gently to the bar's axis.
@@ -39,24 +44,17 @@ struct Clamp {
 }
 
 impl Hook {
-    /// An open hook. The tool sits on the body `tool_body`; the cabinet's hinge is at `hinge_y_m` (world).
-    pub(super) fn new(
-        cabinet: &Cabinet,
-        parameters: &Parameters,
-        hinge_y_m: f64,
-        door: RigidBodyHandle,
-        (tool_body, body_from_tool): (RigidBodyHandle, Isometry3<f64>),
-    ) -> Self {
-        Self {
-            grip: cabinet.grip,
-            door,
-            tool_body,
-            body_from_tool,
-            bars: cabinet.bars(hinge_y_m, parameters).into_iter().map(|(_, middle)| middle).collect(),
-            half_length_m: cabinet.handle_length_m / 2.0,
-            closed: false,
-            clamp: None,
-            force: Vector3::zeros(),
+    /// An open hook, which is the tool, on the body `tool_body`. It finds no bars yet.
+    pub(super) fn new(tool_body: RigidBodyHandle, body_from_tool: Isometry3<f64>) -> Self {
+        Self { tool_body, body_from_tool, bars: Vec::new(), closed: false, clamp: None, force: Vector3::zeros() }
+    }
+
+    /// Lets the clamp close around the bars of `cabinet`, whose hinge is at `hinge_y_m` (world), if that is how they are held.
+    pub(super) fn add(&mut self, cabinet: &Cabinet, parameters: &Parameters, hinge_y_m: f64, door: RigidBodyHandle) {
+        if cabinet.grip == Grip::Clamp {
+            let half_length_m = cabinet.handle_length_m / 2.0;
+            let bars = cabinet.bars(hinge_y_m, parameters).into_iter();
+            self.bars.extend(bars.map(|(_, middle)| Bar { door, middle, half_length_m }));
         }
     }
 
@@ -67,7 +65,7 @@ impl Hook {
 
     /// Opens and closes the clamp, before a step.
     pub(super) fn act(&mut self, engine: &mut PhysicsWorld) {
-        match (&mut self.clamp, self.closed && self.grip == Grip::Clamp) {
+        match (&mut self.clamp, self.closed) {
             (None, true) => self.clamp = self.close(engine),
             (Some(clamp), true) => clamp.centre(engine),
             (Some(clamp), false) => {
@@ -83,17 +81,21 @@ impl Hook {
     fn close(&self, engine: &mut PhysicsWorld) -> Option<Clamp> {
         let pose = |handle| engine.bodies.get(handle).map(|body| convert::pose_back(body.position()));
         let tool = pose(self.tool_body)? * Point3::from(self.body_from_tool.translation.vector);
-        let first = pose(self.door)?.inverse_transform_point(&tool);
-        let axis = |bar: &Point3<f64>| Point3::new(bar.x, bar.y, first.z.clamp(bar.z - self.half_length_m, bar.z + self.half_length_m));
-        let nearest = self.bars.iter().map(axis).min_by(|a, b| (a - first).norm().total_cmp(&(b - first).norm()))?;
-        if (nearest - first).norm() > REACH_M {
+        // Of each bar: how far its axis is away, the hook's middle in the door's frame, and the axis's point beside it.
+        let at = |bar: &Bar| {
+            let (first, middle) = (pose(bar.door)?.inverse_transform_point(&tool), bar.middle);
+            let axis = Point3::new(middle.x, middle.y, first.z.clamp(middle.z - bar.half_length_m, middle.z + bar.half_length_m));
+            Some(((axis - first).norm(), bar.door, first, axis))
+        };
+        let (away_m, door, first, axis) = self.bars.iter().filter_map(at).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        if away_m > REACH_M {
             return None;
         }
         let joint = SphericalJointBuilder::new()
             .local_anchor1(convert::vector(&self.body_from_tool.translation.vector))
             .local_anchor2(convert::vector(&first.coords))
             .contacts_enabled(true);
-        Some(Clamp { joint: engine.insert_impulse_joint(self.tool_body, self.door, joint), first, axis: nearest, steps: 0 })
+        Some(Clamp { joint: engine.insert_impulse_joint(self.tool_body, door, joint), first, axis, steps: 0 })
     }
 
     /// After a step: reads what the clamp did.
@@ -104,8 +106,13 @@ impl Hook {
         // The engine's impulses act along the axes of the joint's first frame, which are those of the hook's body.
         let impulse = Vector3::new(joint.impulses[0], joint.impulses[1], joint.impulses[2]);
         let rotation = convert::pose_back(body.position()).rotation;
-        self.force = rotation * impulse / engine.integration_parameters.dt;
+        self.force = rotation * impulse / sub_step_s(&engine.integration_parameters);
     }
+}
+
+/// How long the impulses of joints act, which are those of the last of a step's solver iterations (s).
+fn sub_step_s(parameters: &IntegrationParameters) -> f64 {
+    parameters.dt / parameters.num_solver_iterations as f64
 }
 
 impl Clamp {

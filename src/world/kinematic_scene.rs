@@ -42,7 +42,7 @@ pub struct KinematicScene {
     parts: Parts,
     /// Which objects can be held.
     movable: Vec<bool>,
-    /// Which objects go where a placement says.
+    /// Which objects do not always stay where they start: those that are movable, and doors.
     moving: Vec<bool>,
     book: ProximityBook,
     contacts: ContactBook,
@@ -68,7 +68,7 @@ impl KinematicScene {
             let name = if let Owner::Object(object) = about.owner { names[object].to_owned() } else { about.name.clone() };
             Some(Watched { part, owner: about.owner, name, shape: collider.shared_shape().clone() })
         };
-        let moving: Vec<bool> = settings.objects.iter().map(Object::can_move).collect();
+        let moving: Vec<bool> = settings.objects.iter().map(Object::moves).collect();
         let solids: Vec<Watched> = colliders.iter().filter_map(solid).collect();
         let groups: Vec<_> = colliders.iter().map(|collider| collider.collision_groups()).collect();
         let places = (0..names.len()).map(|object| convert::pose(&world.object_pose(object))).collect();

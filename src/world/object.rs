@@ -138,8 +138,8 @@ impl Object {
         self.is_free() || matches!(self.kind, ObjectKind::SpringPlate { .. })
     }
 
-    /// Whether any of it can move: what [`Self::is_movable`] says, and doors.
-    pub fn can_move(&self) -> bool {
+    /// Whether [`Self::pose`] is only where it starts: it is movable, or a cabinet, whose pose is its door's.
+    pub fn moves(&self) -> bool {
         self.is_movable() || matches!(self.kind, ObjectKind::Cabinet(_))
     }
 
@@ -150,6 +150,13 @@ impl Object {
             ObjectKind::Box { body, .. } | ObjectKind::Cylinder { body, .. } => !body.fixed,
             _ => false,
         }
+    }
+
+    /// Whether it is a table under the centre of `other`.
+    pub fn carries(&self, other: &Object, parameters: &Parameters) -> bool {
+        let ObjectKind::Table { size_m, .. } = &self.kind else { return false };
+        let away = other.center(parameters) - self.center(parameters);
+        away.x.abs() <= size_m.x / 2.0 && away.y.abs() <= size_m.y / 2.0
     }
 
     /// Where the object's frame starts (`world_from_object`), its underside on a surface at `support_height_m`: the frame's origin is on that
@@ -188,11 +195,13 @@ impl Object {
     }
 }
 
-/// The height on which everything but tables stands (m, world): the top of the first table, or the floor at 0 without one.
-pub fn support_height_m(objects: &[Object], parameters: &Parameters) -> f64 {
-    let top = |object: &Object| match object.kind {
-        ObjectKind::Table { top_height_m, .. } => Some(top_height_m + object.raised_m.resolve(parameters)),
+/// The height on which `object` stands (m, world): the top of the table under its centre, of several the highest. What is beside all tables
+/// stands as high as the first of them, and on the floor at 0 where there is none.
+pub fn support_height_m(objects: &[Object], object: &Object, parameters: &Parameters) -> f64 {
+    let top = |table: &Object| match table.kind {
+        ObjectKind::Table { top_height_m, .. } => Some(top_height_m + table.raised_m.resolve(parameters)),
         _ => None,
     };
-    objects.iter().find_map(top).unwrap_or(0.0)
+    let under = objects.iter().filter(|table| table.carries(object, parameters));
+    under.filter_map(top).reduce(f64::max).or_else(|| objects.iter().find_map(top)).unwrap_or(0.0)
 }

@@ -101,10 +101,9 @@ pub(super) fn build(
     parameters: &Parameters,
     parts: &mut Parts,
 ) -> (Vec<RigidBodyHandle>, Vec<Door>) {
-    let support = support_height_m(objects, parameters);
     let (mut bodies, mut doors) = (Vec::with_capacity(objects.len()), Vec::new());
     for (index, object) in objects.iter().enumerate() {
-        let pose = object.pose(parameters, support);
+        let pose = object.pose(parameters, support_height_m(objects, object, parameters));
         if let ObjectKind::Cabinet(cabinet) = &object.kind {
             if let Some(door) = door::build(engine, (index, object), cabinet, &pose, parameters, parts) {
                 bodies.push(door.body);

@@ -96,7 +96,7 @@ impl World {
     }
 
     /// Force by the objects on fingers and tool in the last step, as the engine solved it: through a clamp, and normal to the surfaces that
-    /// touch (N, world).
+    /// touch, without their friction (N, world).
     pub fn tool_force(&self) -> Vector3<f64> {
         self.contacts.tool_force + self.hook.as_ref().map_or_else(Vector3::zeros, |hook| hook.force)
     }

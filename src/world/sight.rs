@@ -16,12 +16,11 @@ pub fn hidden_count(
     from: &Point3<f64>,
     points: &[Point3<f64>],
 ) -> usize {
-    let support = support_height_m(objects, parameters);
     let shapes: Vec<_> = objects
         .iter()
         .enumerate()
         .flat_map(|(index, object)| {
-            let start = object.pose(parameters, support);
+            let start = object.pose(parameters, support_height_m(objects, object, parameters));
             let pose = poses.get(index).copied().unwrap_or(start);
             let at = |pose: Isometry3<f64>| move |part: ObjectPart| (convert::pose(&pose), collider(&part).build());
             object_parts(object, parameters).into_iter().map(at(pose)).chain(fixed_parts(object).into_iter().map(at(start)))

@@ -91,7 +91,7 @@ impl World {
         let (objects, doors) = scene::build(&mut engine, settings.objects, settings.parameters, &mut parts);
         let movable: Vec<bool> = settings.objects.iter().map(Object::is_movable).collect();
         let names: Vec<String> = settings.objects.iter().map(|o| o.name.clone()).collect();
-        let moving: Vec<bool> = settings.objects.iter().map(Object::can_move).collect();
+        let moving: Vec<bool> = settings.objects.iter().map(Object::moves).collect();
         let watch = settings.watch.then(|| EngineWatch::new(&engine, &parts, &names, &moving));
         let hook = hook_of(settings, &limbs, &robot, &objects);
         let n = limbs.working.len();
@@ -223,17 +223,15 @@ impl World {
     }
 }
 
-/// The hook, when the robot has no fingers and there is a cabinet to open.
+/// The hook, when the robot has no fingers and there are cabinets to open.
 fn hook_of(settings: &WorldSettings, limbs: &Limbs, robot: &RobotBody, bodies: &[RigidBodyHandle]) -> Option<Hook> {
-    if !limbs.fingers.is_empty() {
-        return None;
+    let mut hook = None;
+    for (object, &door) in settings.objects.iter().zip(bodies).filter(|_| limbs.fingers.is_empty()) {
+        let ObjectKind::Cabinet(cabinet) = &object.kind else { continue };
+        let hook = hook.get_or_insert_with(|| Hook::new(robot.bodies[limbs.tool_body], limbs.body_from_tool));
+        hook.add(cabinet, settings.parameters, object.center(settings.parameters).y, door);
     }
-    settings.objects.iter().zip(bodies).find_map(|(object, &door)| {
-        let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
-        let hinge_y_m = object.center(settings.parameters).y;
-        let tool = (robot.bodies[limbs.tool_body], limbs.body_from_tool);
-        Some(Hook::new(cabinet, settings.parameters, hinge_y_m, door, tool))
-    })
+    hook
 }
 
 /// Range of a gripper's leading finger: where it is closed and where it is open (m).

@@ -216,3 +216,42 @@ fn rows_34_and_38_no_display_is_needed_and_simulated_time_is_counted_in_steps() 
         assert!((time_s - step * 1e-3).abs() < 1e-12, "step {step} at {time_s} s");
     }
 }
+
+/// Contract: every joint that a posture of the scenario puts beyond a limit is named with angle and limit, whatever else is wrong, and nothing is
+/// simulated.
+#[test]
+fn postures_beyond_the_limits_of_joints_are_named() {
+    let folder = good();
+    let idle = "robot.idle_posture_rad=[0.6, 1.5, 0.0, 1.6, 0.0, 0.6, 0.0]";
+    let rest = "robot.rest_posture_rad=[-0.4347, -1.0645, -0.4138, 1.934, 0.2873, 0.7587, 3.2]";
+    for command in [&["validate", "a.toml"][..], &["run", "a.toml", "--out", "out", "-q"]] {
+        let said = with_set(&folder, command, &[idle, rest]);
+        assert_eq!(said.code, Some(3), "{}", said.stderr);
+        for told in [
+            "robot.idle_posture_rad puts joint `right_s1` at 1.5000 rad, above its upper limit of 1.0470 rad",
+            "robot.rest_posture_rad puts joint `left_w2` at 3.2000 rad, above its upper limit of 3.0590 rad",
+            "`torso` is 61.6 mm inside `right_lower_elbow`",
+        ] {
+            assert!(said.stderr.contains(told), "`{told}` is not in: {}", said.stderr);
+        }
+        assert_eq!(folder.names(), ["a.toml"], "nothing is written");
+    }
+    assert_eq!(with_set(&folder, &["validate", "a.toml"], &[&idle.replace("1.5", "0.5")]).code, Some(0));
+}
+
+/// Contract: a dataset that does not show what the skill is asked is warned about before anything runs.
+#[test]
+fn a_setting_beyond_a_recorded_dataset_is_told_by_validate() {
+    let folder = good();
+    assert_eq!(with_set(&folder, &["run", "a.toml", "--out", "taught", "-q"], &[]).code, Some(0));
+    let of_dataset = "demonstrations=taught/demonstrations";
+    let said = with_set(&folder, &["validate", "a.toml"], &[of_dataset, "parameters.block_height_m=0.3"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(
+        said.stderr.contains("`block_height_m` is 0.3, but was demonstrated from 0.17 to 0.26 only: the skill extrapolates"),
+        "{}",
+        said.stderr
+    );
+    let said = with_set(&folder, &["validate", "a.toml"], &[of_dataset]);
+    assert!(said.code == Some(0) && !said.stderr.contains("demonstrated"), "{}", said.stderr);
+}

@@ -6,7 +6,9 @@ use std::path::Path;
 use cpdmp::figure::{
     ArmRun, Chart, Figure, Mark, Shape, arm_compliance, arm_forcing, arm_motion, arm_paths, arm_settings, arm_states, svg,
 };
+use cpdmp::learning::cpdmp::{CouplingMode, CouplingSettings};
 use cpdmp::learning::{ExecutionSettings, LearningSettings};
+use cpdmp::palette::meaning::{self, MINIMISES, STIFF};
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::RunOutcome;
 use nalgebra::{Matrix2, Vector2};
@@ -88,6 +90,30 @@ fn bars_are_the_statistic_against_sigma() {
     }
     let sigma = line(&figure.panels[0], "root of the threshold sigma")[0][1];
     assert!((sigma - compliance.threshold_m2.sqrt() * 1e3).abs() < 1e-9);
+}
+
+/// Contract: a state is drawn as what it does about forces in this run, whatever it had learned to do.
+#[test]
+fn states_have_the_colour_of_what_the_coupling_lets_them_do() {
+    let legend = |mode: CouplingMode| {
+        let mut parts = Parts::of(outcome());
+        parts.question.coupling = CouplingSettings { enabled: true, mode, ..CouplingSettings::default() };
+        let run = parts.run();
+        let mut of_states: Vec<(String, _)> = [arm_motion(&run), arm_compliance(&run), arm_forcing(&run).expect("drawn")]
+            .into_iter()
+            .chain(arm_paths(&run))
+            .flat_map(|figure| figure.panels)
+            .flat_map(|panel| panel.marks)
+            .filter(|mark| mark.legend.contains("state"))
+            .map(|mark| (mark.legend.to_string(), mark.color))
+            .collect();
+        of_states.dedup();
+        of_states
+    };
+    let all = |states: &[(String, _)], name: &str, color| !states.is_empty() && states.iter().all(|one| one.0 == name && one.1 == color);
+    assert!(all(&legend(CouplingMode::MinimiseForceError), "state that minimises the force", MINIMISES));
+    assert!(all(&legend(CouplingMode::PerState(vec![-1.0; 5])), "state that complies", meaning::COMPLIES));
+    assert!(all(&legend(CouplingMode::PerState(vec![0.0; 5])), "stiff state", STIFF));
 }
 
 /// Every point of an ellipse over the phase is two standard deviations from the mean of one state, by the definition of a Gaussian.

@@ -12,11 +12,11 @@ use cpdmp::learning::{self, Learned};
 use cpdmp::robot::EffortModel;
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::{Experiment, History, RunOutcome, Setup, Silent, SimulationError, demonstrate, perform};
-use cpdmp::world::{Cabinet, Grip, ObjectKind, Parameters, door_turn, opening_rad};
+use cpdmp::world::{Cabinet, Grip, ObjectKind, Parameters, SensorSettings, door_turn, opening_rad};
 use nalgebra::{Isometry3, Vector2};
 
 /// Places of the handles along y, and of the places between and beyond them that were never shown (m).
-const HANDLE_3_M: f64 = 0.35;
+pub(super) const HANDLE_3_M: f64 = 0.35;
 const BETWEEN_M: [f64; 4] = [0.425, 0.375, 0.325, 0.275];
 const BEYOND_M: [f64; 2] = [0.475, 0.225];
 
@@ -24,19 +24,19 @@ const BEYOND_M: [f64; 2] = [0.475, 0.225];
 const WIDE_RAD: f64 = 0.9599;
 const OPEN_RAD: f64 = 0.8727;
 
-fn scenario_with(name: &str, set: &[&str]) -> Scenario {
+pub(super) fn scenario_with(name: &str, set: &[&str]) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
     let options = LoadOptions { set: set.iter().map(ToString::to_string).collect(), ..LoadOptions::default() };
     Scenario::load(&path, &options).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-fn arm(scenario: &Scenario) -> &Experiment {
+pub(super) fn arm(scenario: &Scenario) -> &Experiment {
     let Work::Arm(experiment) = &scenario.work else { panic!("no arm") };
     experiment
 }
 
 /// The lessons of a scenario and what is learned from them.
-fn lessons(scenario: &Scenario) -> (Dataset, Learned) {
+pub(super) fn lessons(scenario: &Scenario) -> (Dataset, Learned) {
     let setup = Setup::new(arm(scenario)).expect("the robot loads");
     setup.preflight().expect("the lessons can be led");
     let (dataset, _) = demonstrate(&setup, &Silent).expect("demonstrations");
@@ -45,13 +45,19 @@ fn lessons(scenario: &Scenario) -> (Dataset, Learned) {
 }
 
 /// The shipped lessons.
-fn taught() -> &'static (Dataset, Learned) {
+pub(super) fn taught() -> &'static (Dataset, Learned) {
     static TAUGHT: OnceLock<(Dataset, Learned)> = OnceLock::new();
     TAUGHT.get_or_init(|| lessons(&scenario_with("cabinet_door.toml", &[])))
 }
 
+/// The shipped lessons without a clamp.
+fn taught_by_contact() -> &'static (Dataset, Learned) {
+    static TAUGHT: OnceLock<(Dataset, Learned)> = OnceLock::new();
+    TAUGHT.get_or_init(|| lessons(&scenario_with("cabinet_door_contact_hook.toml", &[])))
+}
+
 /// One execution of a skill at the handle at `handle_y_m`, changed by `change`.
-fn executed(
+pub(super) fn executed(
     scenario: &Scenario,
     lessons: &(Dataset, Learned),
     handle_y_m: f64,
@@ -61,7 +67,7 @@ fn executed(
 }
 
 /// The same, of a skill that may start inside a bar.
-fn tried(
+pub(super) fn tried(
     scenario: &Scenario,
     (dataset, learned): &(Dataset, Learned),
     handle_y_m: f64,
@@ -76,7 +82,7 @@ fn tried(
     Ok((experiment, outcome, criteria))
 }
 
-fn value(criteria: &[Criterion], name: &str) -> f64 {
+pub(super) fn value(criteria: &[Criterion], name: &str) -> f64 {
     criteria.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no criterion {name}")).value
 }
 
@@ -92,7 +98,7 @@ fn row(what: &str, criteria: &[Criterion]) -> String {
 }
 
 /// The cabinet of an experiment and the place of its hinge (m).
-fn cabinet(experiment: &Experiment) -> (&Cabinet, Vector2<f64>) {
+pub(super) fn cabinet(experiment: &Experiment) -> (&Cabinet, Vector2<f64>) {
     let object = experiment.objects.iter().find(|o| matches!(o.kind, ObjectKind::Cabinet(_))).expect("a cabinet");
     let ObjectKind::Cabinet(cabinet) = &object.kind else { panic!("no cabinet") };
     (cabinet, object.center(&experiment.parameters))
@@ -116,6 +122,10 @@ fn the_door_opens_between_the_handles_and_beyond_them() {
         assert!(value(&criteria, "door_open") >= OPEN_RAD, "{handle_y_m} m");
         assert!(value(&criteria, "arc_followed") <= 0.004, "{handle_y_m} m");
         assert_eq!(value(&criteria, "nothing_else_touched"), 0.0, "{handle_y_m} m");
+        // Half a place before the first handle the plan may shut the door on its stop before it opens it, and is not held to this.
+        if handle_y_m != BEYOND_M[0] {
+            assert!(value(&criteria, "hook_force") <= 20.0, "{handle_y_m} m");
+        }
     }
 }
 
@@ -136,18 +146,28 @@ fn the_hook_and_the_door_move_as_a_hinge_lets_them() {
     }
 }
 
-/// Contract: what the world says the door did to the hook is what the arm feels, when nothing is wrong with its sensors and joints, and what
-/// turns the door: `F r = I a + d w + friction`.
-#[test]
-fn the_force_at_the_hook_is_felt_by_the_arm_and_turns_the_door() {
+/// Sensors and joints with which nothing is wrong.
+fn faultless() -> SensorSettings {
+    SensorSettings {
+        effort_noise_nm: 0.0,
+        effort_bias_nm: 0.0,
+        dry_friction_nm: 0.0,
+        model: EffortModel::FullDynamics,
+        filter_cutoff_hz: f64::INFINITY,
+    }
+}
+
+/// How far the force at the hook, as the world tells it, is from what the arm feels (N), and its torque about the hinge from what turns the
+/// door (N m), at most, when nothing is wrong with the arm's sensors and joints.
+fn mismatch_of_forces(solver_iterations: usize) -> [f64; 2] {
     let scenario = scenario_with("cabinet_door.toml", &[]);
     let (experiment, outcome, _) = executed(&scenario, taught(), 0.32, |experiment| {
-        let sensor = &mut experiment.robot.sensor;
-        (sensor.effort_noise_nm, sensor.effort_bias_nm, sensor.dry_friction_nm) = (0.0, 0.0, 0.0);
-        (sensor.model, sensor.filter_cutoff_hz) = (EffortModel::FullDynamics, f64::INFINITY);
+        experiment.physics.solver_iterations = solver_iterations;
+        experiment.robot.sensor = faultless();
     });
     let (cabinet, hinge) = cabinet(&experiment);
-    let (m, w, t) = (cabinet.mass_kg, cabinet.door_size_m.x, 0.018);
+    let [m, friction_nm] = [&cabinet.mass_kg, &cabinet.friction_nm].map(|quantity| quantity.resolve(&experiment.parameters));
+    let (w, t) = (cabinet.door_size_m.x, 0.018);
     let inertia = m * (w * w + t * t) / 3.0;
     let opening: Vec<f64> = outcome.steps.iter().map(|step| opening_rad(&step.objects[0])).collect();
     let dt = outcome.steps[1].time_s - outcome.steps[0].time_s;
@@ -161,14 +181,24 @@ fn the_force_at_the_hook_is_felt_by_the_arm_and_turns_the_door() {
         let arm = step.tool.translation.vector.xy() - hinge;
         // The hook pulls with the opposite of what the door does to it; the door opens about -z.
         let pull = arm.x * step.tool_force.y - arm.y * step.tool_force.x;
-        let needed = inertia * acceleration + cabinet.damping_nms_per_rad * rate + cabinet.friction_nm * rate.signum();
+        let needed = inertia * acceleration + cabinet.damping_nms_per_rad * rate + friction_nm * rate.signum();
         if rate > 0.02 {
             torque = torque.max((pull - needed).abs());
         }
     }
-    println!("arm against world {felt:.4} N, hinge {torque:.4} N m");
-    assert!(felt < 0.05, "{felt} N");
-    assert!(torque < 0.05, "{torque} N m");
+    [felt, torque]
+}
+
+/// Contract: what the world says the door did to the hook is what the arm feels and what turns the door, `F r = I a + d w + friction`, however
+/// often the engine's solver goes over a step.
+#[test]
+fn the_force_at_the_hook_is_felt_by_the_arm_and_turns_the_door() {
+    for solver_iterations in [1, 4] {
+        let [felt_n, torque_nm] = mismatch_of_forces(solver_iterations);
+        println!("{solver_iterations} solver iterations: arm against world {felt_n:.4} N, hinge {torque_nm:.4} N m");
+        assert!(felt_n < 0.05, "{solver_iterations} solver iterations: {felt_n} N");
+        assert!(torque_nm < 0.05, "{solver_iterations} solver iterations: {torque_nm} N m");
+    }
 }
 
 #[test]
@@ -181,9 +211,9 @@ fn the_same_skill_in_the_same_setting_does_the_same_to_the_last_bit() {
 #[test]
 fn a_hook_without_a_clamp_opens_the_door_by_contact() {
     let scenario = scenario_with("cabinet_door_contact_hook.toml", &[]);
-    let taught = lessons(&scenario);
+    let taught = taught_by_contact();
     for handle_y_m in [0.45, 0.40, 0.35, 0.30, 0.25] {
-        let (experiment, _, criteria) = executed(&scenario, &taught, handle_y_m, |_| {});
+        let (experiment, _, criteria) = executed(&scenario, taught, handle_y_m, |_| {});
         assert_eq!(cabinet(&experiment).0.grip, Grip::Contact);
         println!("{}, {:.1} N in one step", row(&format!("contact at {handle_y_m} m"), &criteria), value(&criteria, "hook_blow"));
         assert!(value(&criteria, "door_open") >= OPEN_RAD, "{handle_y_m} m");
@@ -299,7 +329,7 @@ fn twenty_teachers() {
             tally.add(format!("cpdmp {handle_y_m} m"), &criteria);
             match tried(&baseline, &of_baseline, handle_y_m, |_| {}) {
                 Ok((_, _, criteria)) => tally.add(format!("lwr {handle_y_m} m"), &criteria),
-                Err(SimulationError::World(_)) => in_the_bar += 1,
+                Err(SimulationError::Scene(_)) => in_the_bar += 1,
                 Err(error) => panic!("{error}"),
             }
         }

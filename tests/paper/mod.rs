@@ -1,6 +1,7 @@
 //! The paper's experiments, on synthetic data and judged from the simulated world.
 
 mod cabinet_door;
+mod cabinet_scene;
 mod dataset_damage;
 mod dataset_import;
 mod execution_modes;

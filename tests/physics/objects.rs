@@ -67,6 +67,25 @@ fn what_is_free_falls_onto_the_table_and_what_is_fixed_stays() {
 }
 
 #[test]
+fn what_stands_on_one_of_two_tables_stands_at_its_height() {
+    let size = |height: f64| ObjectKind::Table { size_m: Vector2::new(0.4, 0.4), top_height_m: height, friction: 0.5.into() };
+    let peg = || ObjectKind::Cylinder { radius_m: 0.02, height_m: 0.1, body: solid(0.2, false) };
+    let world = after(
+        0.5,
+        vec![
+            object("high", [4.0, 0.0], size(0.3)),
+            object("low", [5.0, 0.0], size(-0.4)),
+            object("on_high", [4.1, -0.1], peg()),
+            object("on_low", [4.9, 0.1], peg()),
+        ],
+    );
+    for (index, top) in [(3, 0.3), (4, -0.4)] {
+        let height = world.object_pose(index).translation.z;
+        assert!((height - top - 0.05).abs() < 5e-4, "a peg of 10 cm on a table of {top} m: its middle is at {height} m");
+    }
+}
+
+#[test]
 fn an_object_is_where_its_offsets_and_its_turn_put_it() {
     let block = ObjectKind::Box { size_m: Vector3::new(0.2, 0.1, 0.1), body: solid(1.0, false) };
     let quarter = std::f64::consts::FRAC_PI_2;

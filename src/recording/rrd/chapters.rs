@@ -96,7 +96,9 @@ impl Chapters<'_> {
     /// Height of the floor (m): that of the lowest point of the robot's fixed body. A robot that shows no body down to there stands on the
     /// floor on which a table of usual height does.
     fn floor_m(&self, robot: &RobotModel) -> f64 {
-        let support_m = support_height_m(&self.experiment.objects, &self.experiment.parameters);
+        let Experiment { objects, parameters, .. } = self.experiment;
+        let supports_m = objects.iter().map(|object| support_height_m(objects, object, parameters));
+        let support_m = supports_m.reduce(f64::min).unwrap_or(0.0);
         let lowest_m = lowest_m(robot);
         if lowest_m <= support_m { lowest_m } else { support_m - TABLE_HEIGHT_M }
     }

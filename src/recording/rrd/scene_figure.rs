@@ -11,10 +11,10 @@ use crate::world::{Object, ObjectKind, ObjectPart, Parameters, PartShape, fixed_
 
 /// Logs every object: its shapes, and its pose over time.
 pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
-    let support = support_height_m(&experiment.objects, &experiment.parameters);
     for (index, object) in experiment.objects.iter().enumerate() {
         let poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.objects.get(index).copied()).collect();
         let entity = OBJECT.of(&[&object.name]);
+        let support = support_height_m(&experiment.objects, object, &experiment.parameters);
         if poses.len() == records.len() && !poses.is_empty() {
             recorder.poses(entity, &poses)?;
         } else {

@@ -33,7 +33,7 @@ pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, robot: &
         for object in &experiment.objects {
             let when = Some((TEACHING_TIME, start_s));
             scene_figure::log_shapes(recorder, when, &TEACHING_OBJECT_SHAPE, object, &lesson.parameters)?;
-            let pose = object.pose(&lesson.parameters, support_height_m(&experiment.objects, &lesson.parameters));
+            let pose = object.pose(&lesson.parameters, support_height_m(&experiment.objects, object, &lesson.parameters));
             scene_figure::log_fixed(recorder, when, (&TEACHING_OBJECT, &TEACHING_OBJECT_SHAPE), object, &pose)?;
         }
     }
