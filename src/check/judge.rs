@@ -58,7 +58,7 @@ fn answer(outcome: &RunOutcome, experiment: &Experiment, spec: &CriterionSpec) -
         CriterionKind::ObjectInContainer { object, container, speed_max_m_per_s } => {
             (object_in_container(outcome, experiment, object, container, *speed_max_m_per_s), true)
         }
-        CriterionKind::NoContact { objects } => (no_contact(outcome, experiment, objects), true),
+        CriterionKind::NoContact { objects } => (no_contact(&outcome.collisions, experiment, objects), true),
         CriterionKind::DoorOpen { object, min_rad } => (door::open(outcome, experiment, object, *min_rad), false),
         CriterionKind::ArcFollowed { object, of, max_m } => (door::arc_followed(steps, experiment, object, *of, *max_m), true),
         CriterionKind::HookKept { object, max_m } => (door::hook_kept(steps, experiment, object, *max_m), true),
@@ -107,12 +107,12 @@ fn container_size(container: &Object) -> (f64, f64) {
 }
 
 /// Whether the part `name` belongs to one of the `objects`.
-pub(super) fn belongs(name: &str, objects: &[String]) -> bool {
+fn belongs(name: &str, objects: &[String]) -> bool {
     objects.iter().any(|object| name == object || name.strip_prefix(object.as_str()).is_some_and(|rest| rest.starts_with('.')))
 }
 
-fn no_contact(outcome: &RunOutcome, experiment: &Experiment, objects: &[String]) -> Answer {
-    let touching = || outcome.collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects) && !standing(c, experiment));
+pub(super) fn no_contact(collisions: &[ContactEpisode], experiment: &Experiment, objects: &[String]) -> Answer {
+    let touching = || collisions.iter().filter(|c| belongs(&c.b, objects) != belongs(&c.a, objects) && !standing(c, experiment));
     Answer::at_most(touching().count() as f64, 0.0, "pairs").first_failed(first_time(touching()))
 }
 

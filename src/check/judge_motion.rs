@@ -1,18 +1,19 @@
 //! Judges a movement that was not simulated: what it touches, how near it comes, whether the joints can go that way.
 
-use super::judge::{Answer, belongs, clearance_of, first_time};
+use super::judge::{Answer, clearance_of, no_contact};
 use super::judge_objects::no_collision;
 use super::{Criterion, CriterionKind, CriterionSpec, Expectation};
-use crate::simulation::MotionOutcome;
-use crate::world::Permission;
+use crate::simulation::{Experiment, MotionOutcome};
 
 /// Furthest that the tool may stay away from a pose that it is asked for (m): what the controller holds.
 const REACH_M: f64 = 1e-3;
+/// Furthest that it may be turned away from it (rad): so much moves a fingertip, 20 cm from the wrist, by a millimetre.
+const REACH_RAD: f64 = 5e-3;
 
-/// Whether the arm can go that way (joint limits, speeds, poses), whether it touches anything that the scene does not allow, and all of
+/// Whether the arm can go that way (joint limits, speeds, places and orientations), whether it touches anything that the scene does not allow, and all of
 /// `specs` in their order. Geometry answers those about contacts and clearances; of the others it says why it does not judge them.
 #[must_use]
-pub fn judge_motion(outcome: &MotionOutcome, specs: &[CriterionSpec]) -> Vec<Criterion> {
+pub fn judge_motion(outcome: &MotionOutcome, experiment: &Experiment, specs: &[CriterionSpec]) -> Vec<Criterion> {
     let own = |name: &str, answer: Answer, upper: bool| {
         let spec = CriterionSpec { name: name.to_owned(), kind: CriterionKind::NoCollision, expect: Expectation::Pass };
         answer.criterion(&spec, upper)
@@ -26,9 +27,12 @@ pub fn judge_motion(outcome: &MotionOutcome, specs: &[CriterionSpec]) -> Vec<Cri
     criteria.push(own("joint_speeds", speed, true));
     if let Some(reach) = outcome.reach {
         let answer = Answer::at_most(reach.position_error_m, REACH_M, "m");
-        criteria.push(own("poses_reached", answer.first_failed(failed(reach.position_error_m > REACH_M, reach.time_s)), true));
+        criteria.push(own("poses_reached", answer.first_failed(failed(reach.position_error_m > REACH_M, reach.position_time_s)), true));
+        let answer = Answer::at_most(reach.orientation_error_rad, REACH_RAD, "rad");
+        let turned = failed(reach.orientation_error_rad > REACH_RAD, reach.orientation_time_s);
+        criteria.push(own("orientations_reached", answer.first_failed(turned), true));
     }
-    criteria.extend(specs.iter().map(|spec| answered(outcome, spec)));
+    criteria.extend(specs.iter().map(|spec| answered(outcome, experiment, spec)));
     criteria
 }
 
@@ -43,14 +47,9 @@ fn unanswered(spec: &CriterionSpec, reason: &'static str) -> Criterion {
     Criterion { not_judged: Some(reason), ..answer }
 }
 
-fn answered(outcome: &MotionOutcome, spec: &CriterionSpec) -> Criterion {
+fn answered(outcome: &MotionOutcome, experiment: &Experiment, spec: &CriterionSpec) -> Criterion {
     match &spec.kind {
-        CriterionKind::NoContact { objects } => {
-            let touching = || outcome.collisions.iter().filter(|c| belongs(&c.a, objects) != belongs(&c.b, objects));
-            // Things that stand on each other belong to the scene, not to the movement.
-            let moved = || touching().filter(|contact| contact.permission.as_ref() != Some(&Permission::Objects));
-            Answer::at_most(moved().count() as f64, 0.0, "pairs").first_failed(first_time(moved())).criterion(spec, true)
-        }
+        CriterionKind::NoContact { objects } => no_contact(&outcome.collisions, experiment, objects).criterion(spec, true),
         CriterionKind::NoCollision => no_collision(&outcome.collisions).criterion(spec, true),
         CriterionKind::Clearance { objects, links, min_m } => {
             clearance_of(&outcome.clearances, objects, links, *min_m).criterion(spec, false)

@@ -17,9 +17,13 @@ pub(super) fn tool_force(outcome: &RunOutcome, mean_over_s: f64, max_n: f64) -> 
     let given: Vec<_> = start.chain(outcome.steps.iter().map(|step| (step.time_s, step.tool_impulse))).collect();
     let means = mean_forces(&given, mean_over_s);
     let failed = means.iter().find(|(_, mean)| *mean > max_n).map(|(time, _)| *time);
-    // A log without impulses has no mean, and no largest one.
-    let largest = means.iter().map(|(_, mean)| *mean).fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) });
-    Answer::at_most(largest, max_n, "N").first_failed(failed)
+    Answer::at_most(largest_mean(&means), max_n, "N").first_failed(failed)
+}
+
+/// The largest of the means (N). A log that is shorter than the window has none, and neither has one without impulses: there is no answer then.
+fn largest_mean(means: &[(f64, f64)]) -> f64 {
+    let larger = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) };
+    means.iter().map(|(_, mean)| *mean).reduce(larger).unwrap_or(f64::NAN)
 }
 
 /// Mean forces (N) over every shortest window of at least `window_s`, with the times of the windows' ends (s), from the momentum that was
@@ -53,6 +57,8 @@ mod tests {
             let least = means.iter().map(|m| m.1).fold(f64::INFINITY, f64::min);
             assert!((least - steady_n).abs() < 1e-9);
         }
-        assert!(mean_forces(&given, 0.3).is_empty());
+        // A run of 0.2 s has no mean over 0.3 s: nothing is known of it, least of all that it is 0 N.
+        assert!(mean_forces(&given, 0.3).is_empty() && largest_mean(&mean_forces(&given, 0.3)).is_nan());
+        assert!((largest_mean(&mean_forces(&given, 0.2)) - steady_n - blow_ns / 0.2).abs() < 1e-9);
     }
 }

@@ -241,6 +241,10 @@ pub(super) struct Global {
     /// Only warn of keys that a scenario or settings of learning cannot have, and leave them aside
     #[arg(long, global = true, env = "CPDMP_LENIENT")]
     pub lenient: bool,
+    /// Refuse a scenario or robot that would be warned of (exit code 3), and let a run that warns of something be one that is not as
+    /// expected (10): for run, check and validate
+    #[arg(long, global = true, env = "CPDMP_DENY_WARNINGS", conflicts_with = "lenient")]
+    pub deny_warnings: bool,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the
     /// samples to this file; figures to this folder; the sweep to this folder instead of sweeps/<scenario>; the joined table to this file
     #[arg(long, global = true, env = "CPDMP_OUT", value_name = "PATH")]
@@ -248,8 +252,8 @@ pub(super) struct Global {
     /// Use this many threads; the result does not depend on it
     #[arg(long, global = true, env = "CPDMP_JOBS", value_name = "N", value_parser = threads)]
     pub jobs: Option<usize>,
-    /// End a run that takes longer than this many seconds with exit code 12: looked at before every step of the simulation, so that
-    /// learning is finished first; every scenario has its own
+    /// End a run that takes longer than this many seconds with exit code 12: looked at before every step of the simulation and before
+    /// every model and situation of a planar experiment, so that learning a model is finished first; every scenario has its own
     #[arg(long, global = true, env = "CPDMP_TIMEOUT", value_name = "S", value_parser = seconds)]
     pub timeout: Option<Duration>,
     /// Print results for people, as JSON (one document per line), or of `check` as JUnit or as GitHub annotations

@@ -1,7 +1,6 @@
 //! `cpdmp check`: runs without recording or display and judges, for continuous integrations.
 
 use std::path::Path;
-use std::time::Duration;
 
 use rayon::prelude::*;
 
@@ -34,7 +33,7 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     let options = options(global);
     let checks = targets.par_iter().map(|target| {
         let checked = match target {
-            Target::Scenario(path) => simulated(path, &options, global.timeout, terminal),
+            Target::Scenario(path) => simulated(path, &options, global, terminal),
             Target::Run(run) => judged_again(run, is_changed(global), &options, terminal),
             Target::Trajectory(path, scene) => judged_trajectory(path, scene, &options, terminal),
         };
@@ -53,8 +52,8 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     }
 }
 
-fn simulated(path: &Path, options: &LoadOptions, limit: Option<Duration>, terminal: &Terminal) -> Checked {
-    let clock = Clock::with_limit(limit);
+fn simulated(path: &Path, options: &LoadOptions, global: &Global, terminal: &Terminal) -> Checked {
+    let clock = Clock::with_limit(global.timeout);
     let name = path.display().to_string();
     match Scenario::load(path, options) {
         Err(invalid) => {
@@ -62,7 +61,10 @@ fn simulated(path: &Path, options: &LoadOptions, limit: Option<Duration>, termin
             Checked::refused(name, "scenario", faults(&invalid.0), clock.elapsed_s())
         }
         Ok(scenario) => {
-            let run = judged_run(&scenario, &clock);
+            let mut run = judged_run(&scenario, &clock);
+            if global.deny_warnings {
+                run.report.deny_warnings();
+            }
             Checked::judged(name, "scenario", run.report, faults(&scenario.warnings), clock.elapsed_s())
         }
     }

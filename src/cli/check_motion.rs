@@ -59,7 +59,7 @@ pub(super) fn movement(
     match moved(experiment, samples) {
         Ok(mut outcome) => {
             allow(&mut outcome.collisions, &scenario.allowed_contacts);
-            Ok(RunReport::of_motion(experiment, &outcome, &judge_motion(&outcome, criteria)))
+            Ok(RunReport::of_motion(experiment, &outcome, &judge_motion(&outcome, experiment, criteria)))
         }
         Err(SimulationError::Demonstrations(error)) => Err(of_data(samples, &error)),
         Err(error) if outcome_of(&error) == Outcome::InvalidInput => Err(vec![whole_file(samples, "trajectory", error.to_string())]),

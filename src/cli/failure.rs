@@ -60,6 +60,7 @@ impl Failure {
             LearningError::Io { .. } => Self::new(Outcome::InvalidInput, [error.to_string()]),
             LearningError::Model(message) => Self::new(Outcome::InvalidInput, [format!("{}: {message}", path.display())]),
             LearningError::Request(message) => Self::new(Outcome::Usage, [message.clone()]),
+            LearningError::Stopped { .. } => Self::new(Outcome::TimeLimit, [error.to_string()]),
             LearningError::Data(_) | LearningError::Math(_) => Self::new(Outcome::LearningFailed, [error.to_string()]),
         }
     }

@@ -63,7 +63,7 @@ fn arm(experiment: &Experiment, scenario: &Scenario, progress: &dyn Progress) ->
 fn plane(planar: &PlanarRun, scenario: &Scenario, progress: &dyn Progress) -> JudgedRun {
     progress.phase("learn", 0);
     let started_s = progress.elapsed_s();
-    match planar.run() {
+    match planar.run(&|| progress.may_go_on()) {
         Ok(left) => {
             let criteria = judge_planar(&left, &scenario.criteria);
             let wall_s = progress.elapsed_s() - started_s;
@@ -84,6 +84,7 @@ pub(super) fn of_learning(error: &LearningError) -> Outcome {
         LearningError::Settings(_) | LearningError::Demonstration(_) | LearningError::Skill(_) | LearningError::Io { .. } => {
             Outcome::InvalidInput
         }
+        LearningError::Stopped { .. } => Outcome::TimeLimit,
         _ => Outcome::LearningFailed,
     }
 }

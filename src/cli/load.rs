@@ -23,6 +23,7 @@ pub(super) fn options(global: &Global) -> LoadOptions {
         robot: global.robot.clone(),
         asset_roots: global.asset_root.clone(),
         lenient: global.lenient,
+        deny_warnings: global.deny_warnings,
     }
 }
 

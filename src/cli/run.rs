@@ -58,6 +58,9 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     #[cfg(feature = "rerun")]
     let progress = Watched::new(progress, &ready.scenario, folder.staging(), viewer.as_ref().map(Open::address));
     let mut run = judged_run(&ready.scenario, &progress);
+    if global.deny_warnings {
+        run.report.deny_warnings();
+    }
     #[cfg(feature = "rerun")]
     let (progress, grown) = progress.end();
     if !run.wants_folder() {

@@ -28,6 +28,17 @@ struct Checked<'a> {
     warnings: Vec<String>,
 }
 
+impl Checked<'_> {
+    /// What is odd about the robot's file makes it one that cannot be used.
+    fn deny_warnings(&mut self) {
+        if self.outcome == Outcome::Passed && !self.warnings.is_empty() {
+            self.outcome = Outcome::InvalidInput;
+            self.exit_code = self.outcome.exit_code();
+            self.error = Some(format!("--deny-warnings: {}", std::mem::take(&mut self.warnings).join("\n")));
+        }
+    }
+}
+
 /// Checks every scenario, its robot and its dataset.
 pub(super) fn validate(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Outcome {
     let files = match select(paths, terminal) {
@@ -36,7 +47,10 @@ pub(super) fn validate(paths: &[PathBuf], global: &Global, terminal: &Terminal) 
     };
     let options = options(global);
     let check = |path: &PathBuf| {
-        let checked = checked(path, Scenario::load(path, &options).map_err(|invalid| invalid.0));
+        let mut checked = checked(path, Scenario::load(path, &options).map_err(|invalid| invalid.0));
+        if global.deny_warnings {
+            checked.deny_warnings();
+        }
         tell(&checked, terminal);
         checked.outcome
     };

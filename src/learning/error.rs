@@ -63,6 +63,12 @@ pub enum LearningError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// Whoever waits did not let it go on.
+    #[error("the time limit was reached before {next}: allow more, or ask for less")]
+    Stopped {
+        /// What would have come next.
+        next: String,
+    },
 }
 
 fn joined(faults: &[SettingFault]) -> String {

@@ -4,6 +4,7 @@
 //! LWR-DMP is given the new goal, but its forcing term is the mean of all demonstrations: the whole path leans to the left, and hits the
 //! obstacle.
 
+use super::patience::{MayGoOn, go_on};
 use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::{
     COLUMNS, Case, Ellipse, Guidance, HandPath, HandSettings, Ideal, LearnedSkill, Method, PlanarOutcome, Side, demonstrated_forcing,
@@ -130,21 +131,26 @@ fn theta(goal_x_m: f64) -> Parameters {
     vec![("goal_x_m".to_owned(), goal_x_m)]
 }
 
-/// The experiment: the same settings and seed give the same outcome.
+/// The experiment: the same settings and seed give the same outcome. `may_go_on` is asked before each model and each situation.
 ///
 /// # Errors
-/// When settings are outside their ranges or make a dataset that cannot be learned from.
-pub fn obstacle_avoidance(settings: &ObstacleAvoidanceSettings, seed: u64) -> Result<PlanarOutcome, LearningError> {
+/// When settings are outside their ranges or make a dataset that cannot be learned from, or it may not go on.
+pub fn obstacle_avoidance(settings: &ObstacleAvoidanceSettings, seed: u64, may_go_on: MayGoOn) -> Result<PlanarOutcome, LearningError> {
     settings.check()?;
     let dataset = settings.dataset(seed)?;
     let with = |shaping: ShapingKind| LearningSettings { shaping, ..settings.learning.clone() };
-    let (cpdmp, lwr) = rayon::join(|| learn(&dataset, &with(ShapingKind::Phmm), seed), || learn(&dataset, &with(ShapingKind::Lwr), seed));
+    let learned = |method: Method, shaping: ShapingKind| {
+        go_on(may_go_on, || format!("{} was learned", method.title()))?;
+        learn(&dataset, &with(shaping), seed)
+    };
+    let (cpdmp, lwr) = rayon::join(|| learned(Method::Cpdmp, ShapingKind::Phmm), || learned(Method::LwrDmp, ShapingKind::Lwr));
     let (cpdmp, lwr) = (cpdmp?, lwr?);
     let skills = [(Method::Cpdmp, &cpdmp.skill), (Method::LwrDmp, &lwr.skill)];
     let mut forcing = demonstrated_forcing(&dataset, &settings.learning, Guidance::OneSide)?;
     let mut cases = Vec::new();
     let taught = settings.taught_goals_x_m.iter().map(|x| (*x, true));
     for (x, taught) in taught.chain(settings.new_goals_x_m.iter().map(|x| (*x, false))) {
+        go_on(may_go_on, || format!("goal_x_m = {x} was tried"))?;
         cases.push(case(settings, x, taught, &skills)?);
         for (method, skill) in skills {
             forcing.push(forcing_curve((method, Guidance::OneSide, None), skill, &theta(x), taught)?);

@@ -5,6 +5,7 @@
 
 use nalgebra::DVector;
 
+use super::patience::{MayGoOn, go_on};
 use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::rival::Rival;
 use super::two_sided_settings::TwoSidedObstacleSettings;
@@ -35,24 +36,26 @@ impl Learned {
     }
 }
 
-/// The experiment: the same settings and seed give the same outcome.
+/// The experiment: the same settings and seed give the same outcome. `may_go_on` is asked before each model and each situation.
 ///
 /// # Errors
-/// When settings are outside their ranges or make a dataset that cannot be learned from.
-pub fn two_sided_obstacle(settings: &TwoSidedObstacleSettings, seed: u64) -> Result<PlanarOutcome, LearningError> {
+/// When settings are outside their ranges or make a dataset that cannot be learned from, or it may not go on.
+pub fn two_sided_obstacle(settings: &TwoSidedObstacleSettings, seed: u64, may_go_on: MayGoOn) -> Result<PlanarOutcome, LearningError> {
     settings.check()?;
-    let (with, without) = rayon::join(|| with_side(settings, seed), || without_side(settings, seed));
+    let (with, without) = rayon::join(|| with_side(settings, seed, may_go_on), || without_side(settings, seed, may_go_on));
     let (with, without) = (with?, without?);
     let dataset = settings.dataset(Method::Cpdmp, Guidance::WithSide, seed)?;
     let mut forcing = demonstrated_forcing(&dataset, &settings.learning, Guidance::WithSide)?;
     let mut cases = Vec::new();
     for (half_width, taught) in settings.half_widths() {
         for side in [Side::Left, Side::Right] {
+            go_on(may_go_on, || tried(half_width))?;
             cases.push(case(settings, &with, half_width, taught, &[side])?);
             forcing.extend(curves(&with, half_width, taught, Some(side))?);
         }
     }
     for (half_width, taught) in settings.half_widths() {
+        go_on(may_go_on, || tried(half_width))?;
         cases.push(case(settings, &without, half_width, taught, &[Side::Left, Side::Right])?);
         forcing.extend(curves(&without, half_width, taught, None)?);
     }
@@ -68,20 +71,31 @@ pub fn two_sided_obstacle(settings: &TwoSidedObstacleSettings, seed: u64) -> Res
     })
 }
 
-fn with_side(settings: &TwoSidedObstacleSettings, seed: u64) -> Result<Learned, LearningError> {
+fn tried(half_width_m: f64) -> String {
+    format!("an obstacle of half width {half_width_m} m was tried")
+}
+
+fn may_learn(method: Method, may_go_on: MayGoOn) -> Result<(), LearningError> {
+    go_on(may_go_on, || format!("{} was learned", method.title()))
+}
+
+fn with_side(settings: &TwoSidedObstacleSettings, seed: u64, may_go_on: MayGoOn) -> Result<Learned, LearningError> {
     let (mut skills, mut models) = (Vec::new(), Vec::new());
     for method in [Method::Cpdmp, Method::CpdmpProduct] {
+        may_learn(method, may_go_on)?;
         let learned = learn(&settings.dataset(method, Guidance::WithSide, seed)?, &settings.learning, seed)?;
         models.push(model_report(method, Guidance::WithSide, &learned.report, 0));
         skills.push((method, None, learned.skill));
     }
+    may_learn(Method::TpGmm, may_go_on)?;
     let (rival, report) = Rival::learned(settings, Guidance::WithSide, seed)?;
     models.push(report);
     Ok(Learned { guidance: Guidance::WithSide, skills, rival, models, transitions: None })
 }
 
-fn without_side(settings: &TwoSidedObstacleSettings, seed: u64) -> Result<Learned, LearningError> {
+fn without_side(settings: &TwoSidedObstacleSettings, seed: u64, may_go_on: MayGoOn) -> Result<Learned, LearningError> {
     let guidance = Guidance::WithoutSide;
+    may_learn(Method::Cpdmp, may_go_on)?;
     let learned = learn(&settings.dataset(Method::Cpdmp, guidance, seed)?, &settings.learning_without_side, seed)?;
     let mut models = vec![model_report(Method::Cpdmp, guidance, &learned.report, 0)];
     let mut skills = vec![(Method::Cpdmp, None, learned.skill.clone())];
@@ -92,6 +106,7 @@ fn without_side(settings: &TwoSidedObstacleSettings, seed: u64) -> Result<Learne
         skills.extend(found.chains.iter().enumerate().map(alone));
         transitions = Some(found);
     }
+    may_learn(Method::TpGmm, may_go_on)?;
     let (rival, report) = Rival::learned(settings, guidance, seed)?;
     models.push(report);
     Ok(Learned { guidance, skills, rival, models, transitions })

@@ -22,9 +22,16 @@ pub fn check_text(report: &CheckReport, all_contacts: bool) -> String {
     for check in report.checks.iter().filter(|_| all_contacts) {
         lines.extend(allowed_contacts(check));
     }
+    // Of paths in a plane no pairs are looked at.
+    let pairs = report.checks.iter().filter_map(|check| check.report.as_ref()).any(|report| !report.clearance.is_empty());
+    lines.extend(pairs.then(|| NOT_WATCHED.to_owned()));
     lines.push(summary(report));
     lines.join("\n") + "\n"
 }
+
+/// The pairs that no check looks at, by design.
+const NOT_WATCHED: &str =
+    "not looked at: links of one arm against each other, links that overlap the torso by construction, parts of one object";
 
 fn row(check: &Checked) -> Vec<String> {
     let dash = || "-".to_owned();

@@ -94,10 +94,11 @@ impl Outcome {
             Self::Passed => "every required criterion is as the scenario expects",
             Self::CriteriaNotMet => {
                 "a required criterion is not as the scenario expects: the table and report.json say which, by how much and when; or a movement \
-                 would go further beyond what was demonstrated than --deny-extrapolation allows"
+                 would go further beyond what was demonstrated than --deny-extrapolation allows, or a run warns of something and \
+                 --deny-warnings is given"
             }
             Self::Diverged => {
-                "the simulation left the finite numbers: the message says when and which body; a smaller simulation.step_s may help"
+                "the simulation left the finite numbers: the message says when, which body and which are the fastest; a smaller simulation.step_s may help"
             }
             Self::TimeLimit => "a run took longer than --timeout allows: the message says how far it came",
             Self::ReplayDiffers => {

@@ -39,7 +39,7 @@ pub struct RunReport {
     pub criteria: Vec<CriterionReport>,
     /// Every pair of parts that touched.
     pub collisions: Vec<CollisionReport>,
-    /// The smallest distance between each part of the arm and each object, and whatever else came near.
+    /// The smallest distance between each part of the robot and each object, and whatever else came near.
     pub clearance: Vec<ClearanceReport>,
     /// What several methods made of the same settings; `null` for a run of an arm.
     pub comparison: Option<ComparisonReport>,
@@ -135,8 +135,8 @@ pub struct CollisionReport {
     pub deepest_time_s: f64,
     /// Where: the middle of the two deepest points (m, world).
     pub deepest_point_m: [f64; 3],
-    /// Largest normal force (N); 0 when nothing was simulated, and of a touch within a step.
-    pub max_force_n: f64,
+    /// Largest normal force (N); `null` when it was not measured: nothing was simulated, or the touch began and ended within a step.
+    pub max_force_n: Option<f64>,
     /// Why the contact is allowed; `null` when it is not.
     pub reason: Option<&'static str>,
     /// The key of the scenario that allows it (`object.toy`, `allowed_contact.leaning`).
@@ -323,6 +323,18 @@ impl RunReport {
         }
         for contact in &mut self.collisions {
             contact.reason_place = contact.reason_key.as_deref().and_then(&find);
+        }
+    }
+
+    /// Makes a run that warns of something one that is not as expected.
+    pub fn deny_warnings(&mut self) {
+        let learned = self.learning.iter().flat_map(|learning| &learning.warnings);
+        let warnings: Vec<&str> = self.warnings.iter().chain(learned).map(String::as_str).collect();
+        if let [first, others @ ..] = &warnings[..] {
+            let more = if others.is_empty() { String::new() } else { format!(" (and {} more)", others.len()) };
+            let denied = format!("--deny-warnings: {first}{more}");
+            self.error.get_or_insert(denied);
+            self.end_as(self.outcome.max(Outcome::CriteriaNotMet));
         }
     }
 

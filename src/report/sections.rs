@@ -53,7 +53,7 @@ pub(super) fn collision(contact: &ContactEpisode) -> CollisionReport {
         max_depth_m: contact.max_depth_m,
         deepest_time_s: contact.deepest_time_s,
         deepest_point_m: contact.deepest_point.coords.into(),
-        max_force_n: contact.max_force_n,
+        max_force_n: finite(contact.max_force_n),
         reason,
         reason_key,
         reason_place: None,

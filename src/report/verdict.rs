@@ -20,7 +20,7 @@ pub(super) fn numbers(criterion: &CriterionReport) -> String {
 pub(super) fn reason(criterion: &CriterionReport) -> String {
     let found = match (criterion.passed, criterion.value) {
         (true, _) => "holds, but should not".to_owned(),
-        (false, None) => "has no answer: what it asks about never happened".to_owned(),
+        (false, None) => "has no answer: what it asks about never happened, or not for long enough".to_owned(),
         (false, Some(_)) => criterion.first_failed_time_s.map_or("fails".to_owned(), |time| format!("fails first at {time:.3} s")),
     };
     format!("{found}: {}", numbers(criterion))
@@ -30,14 +30,14 @@ pub(super) fn reason(criterion: &CriterionReport) -> String {
 pub(super) fn contact(contact: &CollisionReport) -> String {
     let [x, y, z] = contact.deepest_point_m;
     format!(
-        "{} - {}  {:.3} … {:.3} s, {:.2} mm deep at [{x:.4}, {y:.4}, {z:.4}] m at {:.3} s, {:.1} N",
+        "{} - {}  {:.3} … {:.3} s, {:.2} mm deep at [{x:.4}, {y:.4}, {z:.4}] m at {:.3} s, {}",
         contact.a,
         contact.b,
         contact.first_time_s,
         contact.last_time_s,
         contact.max_depth_m * 1e3,
         contact.deepest_time_s,
-        contact.max_force_n
+        contact.max_force_n.map_or("force not measured".to_owned(), |force| format!("{force:.1} N"))
     )
 }
 

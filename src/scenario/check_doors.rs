@@ -1,4 +1,4 @@
-//! Way-points at the opening of a door: there is such a door, and it opens so far.
+//! Doors: way-points at an opening lie at a door that opens so far, cabinets stand square, handles are on their doors.
 
 use super::checks::list;
 use super::fault::{Code, Fault};
@@ -49,6 +49,58 @@ pub(super) fn square_cabinets(scenario: &Node, faults: &mut Vec<Fault>) {
             faults.push(fault.expected("no `yaw_rad`: the door of a cabinet looks along -x, towards the robot"));
         }
     }
+}
+
+/// Every handle of a cabinet's row is on its door.
+pub(super) fn handles_on_doors(scenario: &Node, faults: &mut Vec<Fault>) {
+    for object in list(scenario, "object").iter().filter(|object| is_cabinet(object)) {
+        faults.extend(row_beyond_door(object));
+        faults.extend(bar_beyond_door(object));
+    }
+}
+
+/// The row of handles, from the hinge.
+fn row_beyond_door(cabinet: &Node) -> Option<Fault> {
+    let number = |key: &str| cabinet.get(key).and_then(Node::as_number);
+    let (first, spacing, handles) = (number("first_handle_m")?, number("handle_spacing_m")?, number("handles")?);
+    let (width, radius) = (*cabinet.get("door_size_m")?.as_numbers().first()?, number("handle_radius_m")?);
+    let (nearest, furthest) = (radius, width - radius);
+    if !(nearest..=furthest).contains(&first) {
+        let message = format!("the first handle is {} m from the hinge, off the door, which is {} m wide", plain(first), plain(width));
+        let fault = Fault::at(Code::Conflict, cabinet.get("first_handle_m")?.origin, message);
+        return Some(fault.expected(format!("{} m … {} m, or a wider door (`door_size_m`)", plain(nearest), plain(furthest))));
+    }
+    let last = first + (handles - 1.0) * spacing;
+    (last > furthest + ROUNDING_M).then(|| {
+        let message =
+            format!("handle {handles} of the row is {} m from the hinge, off the door, which is {} m wide", plain(last), plain(width));
+        let most = (furthest - first) / (handles - 1.0);
+        let expected =
+            format!("at most {} m between {handles} handles, or fewer `handles`, or a wider door (`door_size_m`)", rounded_down(most));
+        Fault::at(Code::Conflict, cabinet.entry("handle_spacing_m").map_or(cabinet.origin, |entry| entry.node.origin), message)
+            .expected(expected)
+    })
+}
+
+/// The bar of a handle, which stands upright in the middle of the door's height.
+fn bar_beyond_door(cabinet: &Node) -> Option<Fault> {
+    let number = |key: &str| cabinet.get(key).and_then(Node::as_number);
+    let (length, radius) = (number("handle_length_m")?, number("handle_radius_m")?);
+    let height = *cabinet.get("door_size_m")?.as_numbers().get(1)?;
+    let most = height - 2.0 * radius;
+    (length > most + ROUNDING_M).then(|| {
+        let message = format!("a handle of {} m with round ends of {} m is longer than the door is high", plain(length), plain(radius));
+        let origin = cabinet.entry("handle_length_m").map_or(cabinet.origin, |entry| entry.node.origin);
+        Fault::at(Code::Conflict, origin, message).expected(format!("at most {} m, or a higher door (`door_size_m`)", rounded_down(most)))
+    })
+}
+
+/// Lengths that differ by less are one (m): sums of decimal numbers are not exact.
+const ROUNDING_M: f64 = 1e-9;
+
+/// A limit (m) as a number that keeps it, to a tenth of a millimetre.
+fn rounded_down(limit_m: f64) -> String {
+    plain((limit_m.max(0.0) * 1e4 + 1e-6).floor() / 1e4)
 }
 
 fn is_cabinet(object: &Node) -> bool {

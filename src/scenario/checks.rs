@@ -1,7 +1,7 @@
 //! What no single key can tell: names that refer to something, times that rise, settings that agree with each other.
 
 use super::check_coupling::coupling;
-use super::check_doors::{one_door_at_a_time, openings, square_cabinets};
+use super::check_doors::{handles_on_doors, one_door_at_a_time, openings, square_cabinets};
 use super::check_learning::ends_of_no_baseline;
 use super::check_names::{references, unique_names};
 use super::check_planar::planar;
@@ -19,6 +19,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     unique_names(scenario, "allowed_contact", &mut faults);
     references(scenario, &mut faults);
     square_cabinets(scenario, &mut faults);
+    handles_on_doors(scenario, &mut faults);
     planar(scenario, &mut faults);
     if is_typed(scenario, "planar") {
         return faults;

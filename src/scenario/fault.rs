@@ -173,6 +173,11 @@ pub(super) fn tolerate_unknown_keys(faults: &mut [Fault]) {
     }
 }
 
+/// Makes every warning an error: what somebody asks for who wants none.
+pub(super) fn deny_warnings(faults: &mut [Fault]) {
+    faults.iter_mut().for_each(|fault| fault.severity = Severity::Error);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

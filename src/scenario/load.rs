@@ -10,7 +10,7 @@ use super::check_planar;
 use super::checks;
 use super::conform::Conform;
 use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
-use super::fault::{Code, Fault, Severity, tolerate_unknown_keys};
+use super::fault::{Code, Fault, Severity, deny_warnings, tolerate_unknown_keys};
 use super::layer;
 use super::overrides;
 use super::places::Places;
@@ -71,6 +71,8 @@ pub struct LoadOptions {
     pub asset_roots: Vec<PathBuf>,
     /// Whether a key that nobody knows is a warning instead of an error.
     pub lenient: bool,
+    /// Whether what would be a warning is an error.
+    pub deny_warnings: bool,
 }
 
 impl Scenario {
@@ -81,6 +83,9 @@ impl Scenario {
         let filled = layered(path, options, &mut sources, &mut faults).map(|(tree, roots)| fill(tree, &sources, &roots, &mut faults));
         if options.lenient {
             tolerate_unknown_keys(&mut faults);
+        }
+        if options.deny_warnings {
+            deny_warnings(&mut faults);
         }
         Self::of(filled, faults, &sources)
     }
@@ -275,7 +280,7 @@ mod tests {
             name = "cabinet"
             kind = "cabinet"
             center_m = [1.5, 0.6]
-            door_size_m = [0.4, 0.4]
+            door_size_m = [0.5, 0.4]
             bottom_height_m = 0.1
             handle_lateral_m = "height_m"
             grip = "contact"

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::demonstration::Dataset;
 use crate::learning::LearningError;
 use crate::planar::{
-    Guidance, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
+    Guidance, MayGoOn, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
 };
 use crate::simulation::{DemonstrationSource, Experiment};
 
@@ -102,11 +102,11 @@ impl PlanarRun {
     /// Runs it.
     ///
     /// # Errors
-    /// When nothing can be learned.
-    pub fn run(&self) -> Result<PlanarOutcome, LearningError> {
+    /// When nothing can be learned, or it may not go on.
+    pub fn run(&self, may_go_on: MayGoOn) -> Result<PlanarOutcome, LearningError> {
         match &self.plan {
-            PlanarPlan::ObstacleAvoidance(settings) => obstacle_avoidance(settings, self.seed),
-            PlanarPlan::TwoSidedObstacle(settings) => two_sided_obstacle(settings, self.seed),
+            PlanarPlan::ObstacleAvoidance(settings) => obstacle_avoidance(settings, self.seed, may_go_on),
+            PlanarPlan::TwoSidedObstacle(settings) => two_sided_obstacle(settings, self.seed, may_go_on),
         }
     }
 }

@@ -23,12 +23,14 @@ pub struct ArmMotion {
 /// How well the arm reaches the poses that it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// Largest distance of the tool from its pose (m), and when (s).
+    /// Largest distance of the tool from its pose (m).
     pub position_error_m: f64,
     /// The time of that (s).
-    pub time_s: f64,
+    pub position_time_s: f64,
     /// Largest angle between them (rad).
     pub orientation_error_rad: f64,
+    /// The time of that (s).
+    pub orientation_time_s: f64,
 }
 
 impl ArmMotion {
@@ -67,13 +69,16 @@ impl ArmMotion {
         };
         // Each pose is solved from the posture before, so that the arm does not jump.
         let mut q = vec![0.0; arm.joints()];
-        let mut reach = Reach { position_error_m: 0.0, time_s: motion.times_s[0], orientation_error_rad: 0.0 };
+        let start_s = motion.times_s[0];
+        let mut reach = Reach { position_error_m: 0.0, position_time_s: start_s, orientation_error_rad: 0.0, orientation_time_s: start_s };
         for (sample, (pose, &time_s)) in poses.iter().zip(&motion.times_s).enumerate() {
             let found = if sample == 0 { arm.reach(pose, &mut q) } else { arm.reach_from(pose, &mut q) };
             if found.position_error_m > reach.position_error_m {
-                reach = Reach { position_error_m: found.position_error_m, time_s, ..reach };
+                reach = Reach { position_error_m: found.position_error_m, position_time_s: time_s, ..reach };
             }
-            reach.orientation_error_rad = reach.orientation_error_rad.max(found.orientation_error_rad);
+            if found.orientation_error_rad > reach.orientation_error_rad {
+                reach = Reach { orientation_error_rad: found.orientation_error_rad, orientation_time_s: time_s, ..reach };
+            }
             motion.arm_rad.push(q.clone());
         }
         Ok(Self { reach: Some(reach), ..motion })

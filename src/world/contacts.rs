@@ -29,7 +29,8 @@ pub struct ContactEpisode {
     pub deepest_time_s: f64,
     /// Where (m, world).
     pub deepest_point: Point3<f64>,
-    /// Largest normal force (N); 0 of a touch that the engine did not see because it began and ended within a step.
+    /// Largest normal force (N); NaN when nothing was simulated, and of a touch that the engine did not see because it began and ended
+    /// within a step.
     pub max_force_n: f64,
     /// The smallest distance so far, negative inside (m).
     least_m: f64,
@@ -121,7 +122,7 @@ impl ContactBook {
                 max_depth_m: 0.0,
                 deepest_time_s: time_s,
                 deepest_point: Point3::origin(),
-                max_force_n: 0.0,
+                max_force_n: f64::NAN,
                 least_m: f64::INFINITY,
                 pair,
             });
@@ -186,5 +187,6 @@ mod tests {
         book.note(&touch((1, 0), 0.5, -0.002), &parts);
         let [episode] = &book.episodes[..] else { panic!("{} pairs", book.episodes.len()) };
         assert_eq!((episode.first_time_s, episode.last_time_s, episode.max_depth_m), (0.5, 1.0, 0.002));
+        assert!(episode.max_force_n.is_nan(), "shapes tell no force");
     }
 }

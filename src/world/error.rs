@@ -28,7 +28,7 @@ pub enum WorldError {
         pairs: String,
     },
     /// A body's state left the finite numbers.
-    #[error("the simulation diverged at step {step} ({time_s:.3} s): body {body} is no longer finite; try a smaller `step_s`")]
+    #[error("the simulation diverged at step {step} ({time_s:.3} s): body {body} is no longer finite{}; try a smaller `step_s`", told(.fastest))]
     Diverged {
         /// Number of the step.
         step: u64,
@@ -36,5 +36,12 @@ pub enum WorldError {
         time_s: f64,
         /// The first body.
         body: String,
+        /// The bodies that were fastest when they were last finite, the fastest first, with their speeds (m/s).
+        fastest: Vec<(String, f64)>,
     },
+}
+
+fn told(fastest: &[(String, f64)]) -> String {
+    let each: Vec<String> = fastest.iter().map(|(body, speed)| format!("{body} {speed:.3e} m/s")).collect();
+    if each.is_empty() { " (everything was at rest before)".to_owned() } else { format!(" (fastest before: {})", each.join(", ")) }
 }

@@ -40,6 +40,7 @@ pub struct KinematicScene {
     limbs: Limbs,
     finger_range: FingerRange,
     parts: Parts,
+    /// Which objects can be held.
     movable: Vec<bool>,
     /// Which objects do not always stay where they start: those that are movable, and doors.
     moving: Vec<bool>,
@@ -67,6 +68,7 @@ impl KinematicScene {
             let name = if let Owner::Object(object) = about.owner { names[object].to_owned() } else { about.name.clone() };
             Some(Watched { part, owner: about.owner, name, shape: collider.shared_shape().clone() })
         };
+        let moving: Vec<bool> = settings.objects.iter().map(Object::moves).collect();
         let solids: Vec<Watched> = colliders.iter().filter_map(solid).collect();
         let groups: Vec<_> = colliders.iter().map(|collider| collider.collision_groups()).collect();
         let places = (0..names.len()).map(|object| convert::pose(&world.object_pose(object))).collect();
@@ -74,7 +76,7 @@ impl KinematicScene {
         Ok(Self {
             mechanism: Mechanism::new(&world, settings.robot, &colliders),
             travel_m: vec![0.0; solids.len()],
-            book: ProximityBook::new(solids, &world.movable, |a, b| groups[a].test(groups[b])),
+            book: ProximityBook::new(solids, &moving, |a, b| groups[a].test(groups[b])),
             contacts: ContactBook::default(),
             held: Vec::new(),
             before: state.clone(),
@@ -84,7 +86,7 @@ impl KinematicScene {
             finger_range: world.finger_range,
             parts: world.parts,
             movable: world.movable,
-            moving: settings.objects.iter().map(Object::moves).collect(),
+            moving,
             limbs: world.limbs,
         })
     }
@@ -148,7 +150,7 @@ impl KinematicScene {
         &self.contacts.episodes
     }
 
-    /// Smallest distances so far, from each part of the arm to each thing that it could hit.
+    /// Smallest distances so far, from each part of the robot to each thing that it could hit.
     pub fn clearances(&self) -> &[Clearance] {
         &self.book.smallest
     }

@@ -54,8 +54,21 @@ pub(super) fn step(engine: &mut PhysicsWorld, parts: &Parts, step_number: u64) -
             step: step_number,
             time_s: step_number as f64 * engine.integration_parameters.dt,
             body: name_of(engine, parts, handle),
+            fastest: fastest(engine, parts),
         }),
     }
+}
+
+/// How many of the fastest bodies are told.
+const FASTEST: usize = 5;
+
+/// The fastest bodies and their speeds (m/s), the fastest first; the engine has put those that left the finite numbers back to where they were.
+fn fastest(engine: &PhysicsWorld, parts: &Parts) -> Vec<(String, f64)> {
+    let moving = engine.bodies.iter().filter(|(_, body)| body.linvel().length() > 0.0);
+    let mut speeds: Vec<(RigidBodyHandle, f64)> = moving.map(|(handle, body)| (handle, body.linvel().length())).collect();
+    speeds.sort_by(|a, b| b.1.total_cmp(&a.1));
+    speeds.truncate(FASTEST);
+    speeds.into_iter().map(|(handle, speed)| (name_of(engine, parts, handle), speed)).collect()
 }
 
 /// What reports call a body: the name of the first part that can be touched of it.
@@ -96,5 +109,39 @@ impl Layer {
             Self::Movable => (MOVABLE, FIXED | PROXIMAL | DISTAL | SCENERY | MOVABLE),
         };
         InteractionGroups::new(member, filter, InteractionTestMode::And)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rapier3d_f64::prelude::{ColliderBuilder, RigidBodyBuilder, SharedShape};
+
+    use super::super::parts::{Owner, Part};
+    use super::*;
+
+    /// Contract: when a body leaves the finite numbers, the error names it, the step, and the fastest bodies that are left, the fastest first.
+    #[test]
+    fn a_divergence_names_the_fastest_bodies() {
+        let (mut engine, mut parts) =
+            (engine(&PhysicsSettings { gravity_m_per_s2: [0.0; 3], ..PhysicsSettings::default() }), Parts::default());
+        let speeds = [2.0, 7.0, 0.0, 5.0, 3.0, 4.0, 6.0];
+        let bodies: Vec<RigidBodyHandle> = speeds
+            .iter()
+            .enumerate()
+            .map(|(index, speed)| {
+                let part = parts.add(Part { name: format!("ball_{index}"), owner: Owner::Object(index), handle: false });
+                let place = Vector::new(0.0, 10.0 * index as f64, 0.0);
+                let body = engine.insert_body(RigidBodyBuilder::dynamic().translation(place).linvel(Vector::new(*speed, 0.0, 0.0)));
+                engine.insert_collider(ColliderBuilder::new(SharedShape::ball(0.1)).user_data(part as u128), Some(body));
+                body
+            })
+            .collect();
+        step(&mut engine, &parts, 1).expect("all is finite");
+        engine.bodies.get_mut(bodies[2]).expect("there").set_linvel(Vector::new(f64::NAN, 0.0, 0.0), true);
+        let Err(WorldError::Diverged { step, body, fastest, .. }) = step(&mut engine, &parts, 2) else { panic!("it diverges") };
+        assert_eq!((step, body.as_str()), (2, "`ball_2`"));
+        let names: Vec<&str> = fastest.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["`ball_1`", "`ball_6`", "`ball_3`", "`ball_5`", "`ball_4`"]);
+        assert!((fastest[0].1 - 7.0).abs() < 1e-9, "{fastest:?}");
     }
 }

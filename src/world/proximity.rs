@@ -1,4 +1,8 @@
-//! Smallest distances and touches of the working arm (with what it holds) and everything it could hit, also between steps.
+//! Smallest distances and touches of everything that can move and everything it could hit, also between steps.
+//!
+//! Touches are watched of every pair in which one can move against the other: the robot and each object, objects that move and each other
+//! object, the arms and each other and the torso. Distances are told of the robot and what it holds. Left out are links of one limb against
+//! each other, links that overlap by construction, and parts of one object.
 //!
 //! Every pair of parts carries a distance that it is proven to have at least; motion uses it up, and only when it no longer proves that
 //! nothing new can have happened is the geometry asked again. So most pairs cost a subtraction per step.
@@ -9,12 +13,12 @@ use rapier3d_f64::prelude::{Pose, SharedShape};
 use super::convert;
 use super::gap::Gap;
 use super::parts::{Limb, Owner};
-use super::passage::{Moment, Passage, least_between, tolerance_m};
+use super::passage::{Moment, Passage, RESOLUTION_M, least_between, tolerance_m};
 
-/// The smallest distance so far between a part of the arm and an object.
+/// The smallest distance so far between a part of the robot and an object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clearance {
-    /// The part of the arm, or what it holds.
+    /// The part of the robot, or what it holds.
     pub a: String,
     /// The object, or a part of the robot that does not belong to the arm.
     pub b: String,
@@ -81,6 +85,10 @@ pub(super) struct Motion<'a> {
 struct Pair {
     a: usize,
     b: usize,
+    /// Whether its distance is told, too.
+    distance: Told,
+    /// Whether the same pair is watched the other way round, and that one tells of its touches.
+    is_mirror: bool,
     /// Its place in the list of clearances.
     entry: usize,
     /// A distance that the pair has at least (m).
@@ -89,9 +97,18 @@ struct Pair {
     deepest_m: f64,
 }
 
+/// When the distance of a pair is told, besides its touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Told {
+    Always,
+    /// While the gripper holds this object.
+    WhileHeld(usize),
+    Never,
+}
+
 /// Watches distances and touches.
 pub(super) struct ProximityBook {
-    /// One entry per part of the arm and thing that it could hit.
+    /// One entry per part of the robot or object and thing that it could hit.
     pub smallest: Vec<Clearance>,
     /// The touches of the last motion.
     pub touches: Vec<Touch>,
@@ -101,16 +118,16 @@ pub(super) struct ProximityBook {
 }
 
 impl ProximityBook {
-    /// Watches the working arm's solids, and movable ones while they are held, against all others that they could hit: `meets` says whether
-    /// two solids may touch at all.
-    pub(super) fn new(solids: Vec<Watched>, movable: &[bool], meets: impl Fn(usize, usize) -> bool) -> Self {
+    /// Watches `solids`: `moving` says which objects can move, `meets` whether two solids may touch at all.
+    pub(super) fn new(solids: Vec<Watched>, moving: &[bool], meets: impl Fn(usize, usize) -> bool) -> Self {
         let mut book = Self { smallest: Vec::new(), touches: Vec::new(), solids, pairs: Vec::new() };
         for a in 0..book.solids.len() {
             for b in 0..book.solids.len() {
-                if watched(book.solids[a].owner, book.solids[b].owner, movable) && meets(a, b) {
-                    let entry = book.entry(a, b);
-                    book.pairs.push(Pair { a, b, entry, proven_m: f64::NEG_INFINITY, deepest_m: 0.0 });
-                }
+                let (owner_a, owner_b) = (book.solids[a].owner, book.solids[b].owner);
+                let Some(distance) = watched(owner_a, owner_b, moving).filter(|_| meets(a, b)) else { continue };
+                let entry = book.entry(a, b);
+                let is_mirror = a > b && watched(owner_b, owner_a, moving).is_some();
+                book.pairs.push(Pair { a, b, distance, is_mirror, entry, proven_m: f64::NEG_INFINITY, deepest_m: 0.0 });
             }
         }
         book
@@ -134,13 +151,18 @@ impl ProximityBook {
             let before_m = pair.proven_m;
             let travel_m = motion.travel_m[pair.a] + motion.travel_m[pair.b];
             pair.proven_m -= travel_m;
-            if let Owner::Object(object) = solids[pair.a].owner
-                && !held.contains(&object)
-            {
+            let tells = pair.distance.applies(held);
+            if pair.is_mirror && !tells {
                 continue;
             }
             let entry = &mut smallest[pair.entry];
-            if pair.proven_m > 0.0 && pair.proven_m >= entry.min_distance_m - tolerance_m(entry.min_distance_m) {
+            // Of no interest unless it is nearer, where only touches are told.
+            let known_m = if tells { entry.min_distance_m } else { 0.0 };
+            if pair.proven_m > 0.0 && pair.proven_m >= known_m - tolerance_m(known_m) {
+                continue;
+            }
+            // What touches at the end of a step is the engine's to tell, and so little cannot hide a passage: things at rest cost nothing.
+            if !tells && !motion.timed_within && travel_m <= RESOLUTION_M {
                 continue;
             }
             let gap_at = |fraction: f64| {
@@ -150,21 +172,35 @@ impl ProximityBook {
             };
             let Some(end) = gap_at(1.0) else { continue };
             pair.proven_m = end.distance_m;
-            let floor_m = if entry.min_distance_m > 0.0 { entry.min_distance_m } else { pair.deepest_m };
+            let floor_m = if known_m > 0.0 { known_m } else { pair.deepest_m };
             let mut passage = Passage { gap_at, travel_m, floor_m, least: None, touch: None };
             let least_m = least_between(before_m, end.distance_m, travel_m);
             // The exact start is only asked for when what is known of it leaves something to find.
-            let start = if least_m <= 0.0 || least_m < floor_m - tolerance_m(floor_m) { (passage.gap_at)(0.0) } else { None };
+            let may_pass = motion.timed_within || end.distance_m > 0.0;
+            let hides = least_m <= 0.0 || least_m < floor_m - tolerance_m(floor_m);
+            let start = if may_pass && hides { (passage.gap_at)(0.0) } else { None };
             match start {
-                Some(start) if motion.timed_within || (start.distance_m > 0.0 && end.distance_m > 0.0) => passage.search(start, end),
+                Some(start) if motion.timed_within || start.distance_m > 0.0 => passage.search(start, end),
                 _ => passage.arrive(end),
             }
             let parts = (solids[pair.a].part, solids[pair.b].part);
             note_touches(&passage, motion, parts, touches);
             if let Some(least) = passage.least {
                 pair.deepest_m = pair.deepest_m.min(least.gap.distance_m);
-                note_distance(&least, motion, entry);
+                if tells {
+                    note_distance(&least, motion, entry);
+                }
             }
+        }
+    }
+}
+
+impl Told {
+    fn applies(self, held: &[usize]) -> bool {
+        match self {
+            Self::Always => true,
+            Self::WhileHeld(object) => held.contains(&object),
+            Self::Never => false,
         }
     }
 }
@@ -196,12 +232,15 @@ fn note_distance(least: &Moment, motion: &Motion, entry: &mut Clearance) {
     }
 }
 
-/// The working arm against everything that does not belong to it; what is held against all objects but itself.
-fn watched(a: Owner, b: Owner, movable: &[bool]) -> bool {
+/// Whether `a` is watched against `b`, the robot before objects and the working arm first, and whether their distance is told.
+fn watched(a: Owner, b: Owner, moving: &[bool]) -> Option<Told> {
     match (a, b) {
-        (Owner::Robot { limb: Limb::Working, .. }, Owner::Robot { limb, .. }) => limb != Limb::Working,
-        (Owner::Robot { limb: Limb::Working, .. }, Owner::Object(_)) => true,
-        (Owner::Object(a), Owner::Object(b)) => a != b && movable[a],
-        _ => false,
+        (Owner::Robot { limb: Limb::Working, .. }, Owner::Robot { limb, .. }) => (limb != Limb::Working).then_some(Told::Always),
+        (Owner::Robot { limb: Limb::Working, .. }, Owner::Object(_)) => Some(Told::Always),
+        (Owner::Robot { .. }, Owner::Object(object)) if moving[object] => Some(Told::Always),
+        // What holds still is as far from what stands still as the scene says; only a blow could change that.
+        (Owner::Robot { limb: Limb::Idle, .. }, Owner::Robot { limb: Limb::Fixed, .. } | Owner::Object(_)) => Some(Told::Never),
+        (Owner::Object(a), Owner::Object(b)) => (a != b && moving[a]).then_some(Told::WhileHeld(a)),
+        _ => None,
     }
 }

@@ -116,7 +116,7 @@ impl World {
         &self.contacts.episodes
     }
 
-    /// Smallest distances so far, from each part of the arm to each thing that it could hit; none when they are not watched.
+    /// Smallest distances so far, from each part of the robot to each thing that it could hit; none when they are not watched.
     pub fn clearances(&self) -> &[Clearance] {
         self.watch.as_ref().map_or(&[], |watch| &watch.book.smallest)
     }

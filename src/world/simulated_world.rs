@@ -91,7 +91,8 @@ impl World {
         let (objects, doors) = scene::build(&mut engine, settings.objects, settings.parameters, &mut parts);
         let movable: Vec<bool> = settings.objects.iter().map(Object::is_movable).collect();
         let names: Vec<String> = settings.objects.iter().map(|o| o.name.clone()).collect();
-        let watch = settings.watch.then(|| EngineWatch::new(&engine, &parts, &names, &movable));
+        let moving: Vec<bool> = settings.objects.iter().map(Object::moves).collect();
+        let watch = settings.watch.then(|| EngineWatch::new(&engine, &parts, &names, &moving));
         let hook = hook_of(settings, &limbs, &robot, &objects);
         let n = limbs.working.len();
         let mut world = Self {

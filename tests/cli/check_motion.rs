@@ -1,5 +1,8 @@
 //! `cpdmp check` of movements that are not simulated: files of samples, and stored runs.
 
+use cpdmp::check::judge_motion;
+use cpdmp::scenario::{LoadOptions, Scenario, Work};
+use cpdmp::simulation::{JointExtreme, MotionOutcome, Reach};
 use serde_json::Value;
 
 use super::program::Said;
@@ -39,12 +42,14 @@ fn a_sheet_that_is_crossed_between_two_samples_is_found() {
     let goal = entry(&report["criteria"], &[("name", "goal"), ("status", "not_judged")]);
     assert!(goal["required"].as_bool() == Some(false) && goal["not_judged_because"].is_string(), "{goal}");
     let contact = entry(&report["collisions"], &[("a", "left_hand"), ("b", "block.base")]);
+    assert!(contact["max_force_n"].is_null(), "a movement has no forces: {contact}");
     let number = |key: &str| contact[key].as_f64().expect("a number");
     assert!(number("first_time_s") > 0.02 && number("last_time_s") < 0.18 && number("max_depth_m") > 1e-4, "{contact}");
     let y = contact["deepest_point_m"][1].as_f64().expect("a number");
     assert!((y - 0.2).abs() < 0.06, "within the hand's 4 cm of the wall: {contact}");
     let said = folder.call(&["check", "through.csv", "--scene", "a.toml"]);
-    assert!(said.stdout.contains("left_hand - block.base"), "{}", said.stdout);
+    assert!(said.stdout.contains("left_hand - block.base") && said.stdout.contains("force not measured"), "{}", said.stdout);
+    assert!(!said.stdout.contains(" 0.0 N"), "{}", said.stdout);
     assert!(said.stdout.contains("not judged here") && said.stdout.contains("goal  not judged: it asks what a skill"), "{}", said.stdout);
 }
 
@@ -122,4 +127,64 @@ fn the_scene_says_which_contacts_it_allows_and_where() {
     let said = folder.call(&["check", "through.csv", "--scene", "a.toml", "-v"]);
     let told = format!("the scenario allows it (allowed_contact.tearing, a.toml:{line}:8)");
     assert!(said.stdout.contains(&told), "{}", said.stdout);
+}
+
+/// Contract: what moves is looked at though nobody holds it: an object that a file of samples carries through a block touches it, which the scene
+/// allows, and the scenario's own question finds.
+#[test]
+fn an_object_that_a_movement_carries_is_judged_too() {
+    let untouched = "\n[[criterion]]\nname = \"untouched\"\nkind = \"no_contact\"\nobjects = [\"block\"]\n";
+    let objects = ["block", "toy", "table"].map(|name| {
+        let column = |axis: &str| format!("object_{name}_{axis}");
+        ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"].map(column).join(",")
+    });
+    let carried = |toy_y_m: [f64; 2]| {
+        let row =
+            |(time_s, y): (f64, f64)| format!("{time_s},0.6,0.4,0.12,1,0,0,0,1.2,0.9,0,0,0,0,1,1.2,{y},0.1,0,0,0,1,0.62,0.12,0,0,0,0,1\n");
+        let heading = format!("time_s,x_m,y_m,z_m,qx,qy,qz,qw,{}\n", objects.join(","));
+        heading + &row((0.0, toy_y_m[0])) + &row((0.5, toy_y_m[1]))
+    };
+    let (through, before) = (carried([0.6, 1.2]), carried([0.6, 0.7]));
+    let scene = GOOD.to_owned() + untouched;
+    let folder = Folder::with(&[("a.toml", scene.as_bytes()), ("through.csv", through.as_bytes()), ("before.csv", before.as_bytes())]);
+    for (file, touches) in [("through.csv", true), ("before.csv", false)] {
+        let said = folder.call(&["check", file, "--scene", "a.toml", "--format", "json", "-q"]);
+        let report = json(&said)["checks"][0]["report"].clone();
+        let criterion = entry(&report["criteria"], &[("name", "untouched")]);
+        assert_eq!(criterion["as_expected"].as_bool(), Some(!touches), "{file}: {report:#}");
+        assert_eq!(said.code, Some(if touches { 10 } else { 0 }), "{file}: {report:#}");
+        if touches {
+            let contact = entry(&report["collisions"], &[("a", "toy"), ("b", "block.base")]);
+            assert_eq!(contact["reason"].as_str(), Some("objects may touch each other"), "{contact}");
+        }
+    }
+}
+
+/// Contract: a pose counts as reached when the tool is there and turned as asked; each says when it is worst.
+#[test]
+fn a_pose_that_is_reached_turned_away_is_not_reached() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let scenario = Scenario::load(&folder.path().join("a.toml"), &LoadOptions::default()).unwrap_or_else(|faults| panic!("{faults}"));
+    let Work::Arm(experiment) = scenario.work else { panic!("no arm") };
+    let fine = JointExtreme { joint: "left_s0".to_owned(), value: 0.5, time_s: 0.0 };
+    let judged = |reach: Reach| {
+        let outcome = MotionOutcome {
+            samples: 2,
+            duration_s: 1.0,
+            collisions: Vec::new(),
+            clearances: Vec::new(),
+            limit: fine.clone(),
+            speed: fine.clone(),
+            reach: Some(reach),
+        };
+        let criteria = judge_motion(&outcome, &experiment, &[]);
+        ["poses_reached", "orientations_reached"].map(|name| {
+            let found = criteria.iter().find(|one| one.name == name).expect("asked");
+            (found.passed, found.first_failed_time_s)
+        })
+    };
+    let reach = Reach { position_error_m: 1e-4, position_time_s: 0.2, orientation_error_rad: 1e-3, orientation_time_s: 0.7 };
+    assert_eq!(judged(reach), [(true, None), (true, None)]);
+    assert_eq!(judged(Reach { orientation_error_rad: 0.1, ..reach }), [(true, None), (false, Some(0.7))]);
+    assert_eq!(judged(Reach { position_error_m: 0.1, ..reach }), [(false, Some(0.2)), (true, None)]);
 }

@@ -106,6 +106,7 @@ fn row_25_a_simulation_that_diverges_ends_with_11_time_and_body() {
     assert_eq!((report["outcome"].as_str(), report["exit_code"].as_i64()), (Some("diverged"), Some(11)));
     let error = report["error"].as_str().expect("a reason");
     assert!(error.contains("diverged at step 1 (0.001 s): body `left_") && error.contains("`step_s`"), "{error}");
+    assert!(error.contains("(everything was at rest before)"), "{error}");
 }
 
 /// Contract: an execution that diverges or is stopped leaves what it showed up to then, and no verdict.
@@ -184,6 +185,14 @@ fn row_29_a_run_that_takes_too_long_ends_with_12_and_says_how_far_it_came() {
     assert_eq!(said.code, Some(12));
     assert!(said.stdout.contains("<error") && said.stdout.contains("time_limit"), "{}", said.stdout);
     assert_eq!(folder.call(&["run", "a.toml", "--timeout", "600", "-q"]).code, Some(0), "a limit that is not reached changes nothing");
+    // Learning is not interrupted, but nothing comes after it.
+    let planar = Folder::with(&[("p.toml", include_str!("../../scenarios/obstacle_avoidance.toml").as_bytes())]);
+    let said = planar.call(&["run", "p.toml", "--timeout", "0.001", "--out", "out", "-q"]);
+    assert_eq!(said.code, Some(12), "{}{}", said.stdout, said.stderr);
+    let report = json(&std::fs::read_to_string(planar.path().join("out/report.json")).expect("a report is written"));
+    assert!(report["error"].as_str().is_some_and(|error| error.contains("the time limit was reached before ")), "{report}");
+    assert_eq!(planar.call(&["check", "p.toml", "--timeout", "0.001"]).code, Some(12));
+    assert_eq!(planar.call(&["check", "p.toml", "--timeout", "600"]).code, Some(0));
     for wrong in ["0", "-1", "nan", "inf", "1e300", "soon"] {
         assert_eq!(folder.call(&["run", "a.toml", "--timeout", wrong]).code, Some(2), "{wrong}");
     }

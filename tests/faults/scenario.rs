@@ -147,3 +147,51 @@ fn what_only_looks_odd_is_a_warning() {
     assert_eq!(said.code, Some(0));
     assert!(said.stderr.contains("warning[untaught]") && said.stderr.contains("from 0.17 to 0.26"), "{}", said.stderr);
 }
+
+/// Contract: every handle of a cabinet is on its door, all of its row and all of its bar.
+#[test]
+fn a_handle_off_its_door_is_refused_with_what_would_fit() {
+    let folder = Folder::with(&[("a.toml", include_bytes!("../../scenarios/cabinet_door.toml"))]);
+    // The door is 0.46 m wide and 0.40 m high, the bars have a radius of 6 mm.
+    for (typed, told, fits) in [
+        ("first_handle_m=0.9", ["the first handle is 0.9 m from the hinge", "0.006 m … 0.454 m"], "first_handle_m=0.25"),
+        (
+            "handle_spacing_m=0.2",
+            ["handle 5 of the row is 1 m from the hinge", "at most 0.0635 m between 5 handles"],
+            "handle_spacing_m=0.0635",
+        ),
+        ("handle_length_m=1", ["a handle of 1 m", "at most 0.388 m"], "handle_length_m=0.388"),
+    ] {
+        let said = folder.call(&["validate", "a.toml", "--set", &format!("object.cabinet.{typed}")]);
+        assert_eq!(said.code, Some(3), "{typed}: {}", said.stdout);
+        assert!(said.stderr.contains("error[conflict]") && said.stderr.contains("--set:1:"), "{typed}: {}", said.stderr);
+        assert!(told.iter().all(|text| said.stderr.contains(text)), "{typed}: {}", said.stderr);
+        let stderr = folder.call(&["validate", "a.toml", "--set", &format!("object.cabinet.{fits}")]).stderr;
+        assert!(!stderr.contains("off the door") && !stderr.contains("longer than the door"), "{fits}: {stderr}");
+    }
+}
+
+/// Contract: with `--deny-warnings` what is otherwise only told refuses a scenario, or the robot, before anything is simulated, and makes a run
+/// that warns of something one that is not as expected.
+#[test]
+fn denied_warnings_are_faults() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let beyond = ["a.toml", "--set", "parameters.block_height_m=0.4"];
+    for command in ["validate", "run", "check"] {
+        let said = folder.call(&[&[command][..], &beyond, &["--deny-warnings", "--format", "json", "-q"]].concat());
+        assert_eq!(said.code, Some(3), "{command}: {}{}", said.stdout, said.stderr);
+        assert!(said.stdout.contains("untaught") && !folder.path().join("runs").exists(), "{command}: {}", said.stdout);
+    }
+    let said = folder.call(&[&["validate"][..], &beyond].concat());
+    assert!(said.code == Some(0) && said.stderr.contains("warning[untaught]"), "{}", said.stderr);
+    // One demonstration says nothing of where people do it differently.
+    let alone = ["a.toml", "--set", "teaching.grid.block_height_m=[0.2]", "--set", "learning.theta_m=[]"];
+    for (command, report) in [("run", "/error"), ("check", "/checks/0/report/error")] {
+        assert_eq!(folder.call(&[&[command][..], &alone, &["-q"]].concat()).code, Some(0), "{command} without the flag");
+        let said = folder.call(&[&[command][..], &alone, &["--deny-warnings", "--format", "json", "-q"]].concat());
+        assert_eq!(said.code, Some(10), "{command}: {}{}", said.stdout, said.stderr);
+        let told: serde_json::Value = serde_json::from_str(&said.stdout).expect("JSON");
+        let error = told.pointer(report).and_then(serde_json::Value::as_str).unwrap_or_else(|| panic!("no {report}: {told:#}"));
+        assert!(error.starts_with("--deny-warnings: ") && error.contains("one demonstration"), "{error}");
+    }
+}

@@ -4,7 +4,7 @@ use cpdmp::planar::{HandSettings, Method, ObstacleAvoidanceSettings, PlanarOutco
 use rayon::prelude::*;
 
 fn outcomes(settings: &ObstacleAvoidanceSettings, seeds: u64) -> Vec<PlanarOutcome> {
-    (0..seeds).into_par_iter().map(|seed| obstacle_avoidance(settings, seed).unwrap()).collect()
+    (0..seeds).into_par_iter().map(|seed| obstacle_avoidance(settings, seed, &|| true).unwrap()).collect()
 }
 
 /// Clearances (m) of a method at one goal over all seeds, sorted.
@@ -79,9 +79,9 @@ fn other_tasks_and_people_change_nothing_about_who_collides() {
 #[test]
 fn tasks_that_cannot_be_shown_are_refused_with_all_their_faults() {
     let settings = ObstacleAvoidanceSettings { taught_goals_x_m: vec![], obstacle_half_width_m: 0.0, ..Default::default() };
-    let message = obstacle_avoidance(&settings, 0).unwrap_err().to_string();
+    let message = obstacle_avoidance(&settings, 0, &|| true).unwrap_err().to_string();
     assert!(message.contains("different taught_goals_x_m") && message.contains("obstacle_half_width_m is 0"), "{message}");
     let inside = ObstacleAvoidanceSettings { start_m: [0.0, -0.4], ..Default::default() };
-    let message = obstacle_avoidance(&inside, 0).unwrap_err().to_string();
+    let message = obstacle_avoidance(&inside, 0, &|| true).unwrap_err().to_string();
     assert!(message.contains("on the way to goal_x_m = 1 is -"), "{message}");
 }

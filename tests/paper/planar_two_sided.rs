@@ -12,7 +12,7 @@ const SIDES: [Side; 2] = [Side::Left, Side::Right];
 static DEFAULT: LazyLock<Vec<PlanarOutcome>> = LazyLock::new(|| outcomes(&TwoSidedObstacleSettings::default()));
 
 fn outcomes(settings: &TwoSidedObstacleSettings) -> Vec<PlanarOutcome> {
-    (0..20u64).into_par_iter().map(|seed| two_sided_obstacle(settings, seed).unwrap()).collect()
+    (0..20u64).into_par_iter().map(|seed| two_sided_obstacle(settings, seed, &|| true).unwrap()).collect()
 }
 
 /// The clearance, as a share of the ideal one, of the best movement of a method on a side; negative infinity when it never passes there.
@@ -80,7 +80,7 @@ fn the_outcome_is_complete_and_the_same_on_any_number_of_threads() {
     let settings = TwoSidedObstacleSettings::default();
     let outcome = &DEFAULT[3];
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    assert!(pool.install(|| two_sided_obstacle(&settings, 3)).unwrap() == *outcome, "one thread gives the same bits");
+    assert!(pool.install(|| two_sided_obstacle(&settings, 3, &|| true)).unwrap() == *outcome, "one thread gives the same bits");
     assert_eq!(outcome.demonstrations.len(), 12);
     assert!(outcome.demonstrations.iter().all(|shown| shown.clearance_m > 0.5));
     assert_eq!(outcome.demonstrations.iter().filter(|shown| shown.side == Side::Left).count(), 6);
@@ -108,11 +108,11 @@ fn the_outcome_is_complete_and_the_same_on_any_number_of_threads() {
 #[test]
 fn tasks_that_cannot_be_shown_are_refused_with_all_their_faults() {
     let settings = TwoSidedObstacleSettings { taught_half_widths_m: vec![1.0, 1.0], clearance_m: -1.0, ..Default::default() };
-    let message = two_sided_obstacle(&settings, 0).unwrap_err().to_string();
+    let message = two_sided_obstacle(&settings, 0, &|| true).unwrap_err().to_string();
     assert!(message.contains("different taught_half_widths_m") && message.contains("clearance_m is -1"), "{message}");
     let inside = TwoSidedObstacleSettings { goal_m: [0.0, 0.1], ..Default::default() };
-    let message = two_sided_obstacle(&inside, 0).unwrap_err().to_string();
+    let message = two_sided_obstacle(&inside, 0, &|| true).unwrap_err().to_string();
     assert!(message.contains("half_width_m = 1 is -") && message.contains("half_width_m = 2.5"), "{message}");
     let not_a_number = TwoSidedObstacleSettings { start_m: [f64::NAN, -4.0], ..Default::default() };
-    assert!(two_sided_obstacle(&not_a_number, 0).is_err());
+    assert!(two_sided_obstacle(&not_a_number, 0, &|| true).is_err());
 }

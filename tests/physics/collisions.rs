@@ -13,7 +13,7 @@ use parry3d_f64::shape::{Ball, Capsule, Cuboid, Cylinder, Shape as ParryShape};
 use crate::support::{LEFT_POSTURE, baxter, object};
 
 /// A ball of 1 mm on an arm of 1 m that turns about the vertical, 0.1 m above the floor.
-const LANCE: &str = r#"<robot name="lance">
+pub const LANCE: &str = r#"<robot name="lance">
   <link name="base"/>
   <link name="lance"><inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
     <collision><origin xyz="1 0 0"/><geometry><sphere radius="0.001"/></geometry></collision></link>
@@ -23,7 +23,7 @@ const LANCE: &str = r#"<robot name="lance">
   <joint name="end" type="fixed"><parent link="lance"/><child link="tip"/><origin xyz="1 0 0"/></joint>
 </robot>"#;
 
-fn wall(name: &str, center: [f64; 2], height_m: f64, thickness_m: f64) -> Object {
+pub fn wall(name: &str, center: [f64; 2], height_m: f64, thickness_m: f64) -> Object {
     let kind = ObjectKind::UBlock {
         base_height_m: Quantity::Value(height_m),
         aperture_m: 0.1,

@@ -4,6 +4,7 @@ mod closed_forms;
 mod collisions;
 pub mod collisions_in_engine;
 mod joint_torques;
+mod moved_objects;
 mod objects;
 mod robot_arm;
 mod robot_dynamics;

@@ -23,7 +23,7 @@ static RECORDED: LazyLock<(PlanarOutcome, Vec<Chunk>)> = LazyLock::new(|| {
     let mut settings = TwoSidedObstacleSettings::default();
     (settings.learning.motion.states, settings.learning.motion.max_iterations) = (4, 20);
     settings.tpgmm.components = 4;
-    let outcome = two_sided_obstacle(&settings, 0).expect("it can be learned");
+    let outcome = two_sided_obstacle(&settings, 0, &|| true).expect("it can be learned");
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("recording.rrd");
     write_planar_recording(&path, "two_sided_obstacle", 0, &outcome).expect("written");

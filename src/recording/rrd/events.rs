@@ -56,8 +56,8 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
         events.push(note(clearance.time_s, text));
     }
     for contact in outcome.collisions.iter().filter(|contact| !contact.allowed) {
-        let text =
-            format!("{} touches {}: up to {:.1} N, {:.1} mm deep", contact.a, contact.b, contact.max_force_n, contact.max_depth_m * 1e3);
+        let force = if contact.max_force_n.is_nan() { String::new() } else { format!("up to {:.1} N, ", contact.max_force_n) };
+        let text = format!("{} touches {}: {force}{:.1} mm deep", contact.a, contact.b, contact.max_depth_m * 1e3);
         events.push(Event { time_s: contact.first_time_s, kind: Kind::Fault, text });
     }
     events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
