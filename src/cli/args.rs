@@ -123,7 +123,7 @@ pub(super) struct Replay {
     #[arg(long, value_enum, value_name = "PHASE")]
     pub from: Option<Phase>,
     /// Take the execution up at the last snapshot that the run made up to this time of it (s)
-    #[arg(long, value_name = "SECONDS", value_parser = time_s, conflicts_with = "from")]
+    #[arg(long, value_name = "SECONDS", value_parser = time_s, allow_hyphen_values = true, conflicts_with = "from")]
     pub from_time: Option<f64>,
 }
 
