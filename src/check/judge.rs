@@ -107,7 +107,7 @@ fn container_size(container: &Object) -> (f64, f64) {
 }
 
 /// Whether the part `name` belongs to one of the `objects`.
-fn belongs(name: &str, objects: &[String]) -> bool {
+pub(super) fn belongs(name: &str, objects: &[String]) -> bool {
     objects.iter().any(|object| name == object || name.strip_prefix(object.as_str()).is_some_and(|rest| rest.starts_with('.')))
 }
 

@@ -1,9 +1,10 @@
 //! Judges a movement that was not simulated: what it touches, how near it comes, whether the joints can go that way.
 
-use super::judge::{Answer, clearance_of, no_contact};
+use super::judge::{Answer, belongs, clearance_of, no_contact};
 use super::judge_objects::no_collision;
 use super::{Criterion, CriterionKind, CriterionSpec, Expectation};
 use crate::simulation::{Experiment, MotionOutcome};
+use crate::world::ContactEpisode;
 
 /// Furthest that the tool may stay away from a pose that it is asked for (m): what the controller holds.
 const REACH_M: f64 = 1e-3;
@@ -14,17 +15,12 @@ const REACH_RAD: f64 = 5e-3;
 /// `specs` in their order. Geometry answers those about contacts and clearances; of the others it says why it does not judge them.
 #[must_use]
 pub fn judge_motion(outcome: &MotionOutcome, experiment: &Experiment, specs: &[CriterionSpec]) -> Vec<Criterion> {
-    let asked = |name: &str, answer: Answer, upper: bool, expect: Expectation| {
-        answer.criterion(&CriterionSpec { name: name.to_owned(), kind: CriterionKind::NoCollision, expect }, upper)
+    let own = |name: &str, answer: Answer, upper: bool| {
+        let spec = CriterionSpec { name: name.to_owned(), kind: CriterionKind::NoCollision, expect: Expectation::Pass };
+        answer.criterion(&spec, upper)
     };
-    let own = |name: &str, answer: Answer, upper: bool| asked(name, answer, upper, Expectation::Pass);
-    // A scenario that shows what goes wrong has its contacts told, not held against it.
-    let is_shown = |spec: &CriterionSpec| {
-        let of_contacts = matches!(spec.kind, CriterionKind::NoContact { .. } | CriterionKind::NoCollision);
-        of_contacts && spec.expect == Expectation::Fail
-    };
-    let expect = if specs.iter().any(is_shown) { Expectation::Report } else { Expectation::Pass };
-    let mut criteria = vec![asked("contacts_allowed", no_collision(&outcome.collisions), true, expect)];
+    let held: Vec<ContactEpisode> = outcome.collisions.iter().filter(|contact| !is_shown(contact, specs)).cloned().collect();
+    let mut criteria = vec![own("contacts_allowed", no_collision(&held), true)];
     let failed = |fails: bool, time_s: f64| fails.then_some(time_s);
     let (limit, speed) = (&outcome.limit, &outcome.speed);
     let limit = Answer::at_least(limit.value, 0.0, "rad").first_failed(failed(limit.value < 0.0, limit.time_s));
@@ -40,6 +36,15 @@ pub fn judge_motion(outcome: &MotionOutcome, experiment: &Experiment, specs: &[C
     }
     criteria.extend(specs.iter().map(|spec| answered(outcome, experiment, spec)));
     criteria
+}
+
+/// Whether a criterion expects that very contact: a scenario that shows what goes wrong has it told, not held against it.
+fn is_shown(contact: &ContactEpisode, specs: &[CriterionSpec]) -> bool {
+    specs.iter().filter(|spec| spec.expect == Expectation::Fail).any(|spec| match &spec.kind {
+        CriterionKind::NoCollision => true,
+        CriterionKind::NoContact { objects } => belongs(&contact.a, objects) || belongs(&contact.b, objects),
+        _ => false,
+    })
 }
 
 /// All of `specs` without an answer, for that reason.

@@ -65,7 +65,9 @@ pub(super) fn ineffective(arguments: &Replay, global: &Global) -> Vec<String> {
     let told = |typed: &String| {
         let key = spelled(typed.split('=').next().unwrap_or_default());
         let table = key.split('.').next().unwrap_or_default();
-        let why = if table == "recording" {
+        let why = if table == "seed" && (in_the_middle || arguments.from.is_some()) {
+            "decides the teaching too, which is taken from the folder: leave one of the two out".to_owned()
+        } else if table == "recording" {
             "has no effect: replay compares what the run recorded, as often as it did".to_owned()
         } else if skipped.contains(&table) {
             format!("has no effect with --from {phase}: what it decides is taken from the folder; leave one of the two out")
@@ -80,7 +82,7 @@ pub(super) fn ineffective(arguments: &Replay, global: &Global) -> Vec<String> {
     let from = if in_the_middle { "--from-time".to_owned() } else { format!("--from {phase}") };
     let taken_up = in_the_middle || arguments.from.is_some();
     if taken_up && global.seed.is_some() {
-        faults.push(format!("--seed decides the teaching, which {from} takes from the folder: leave one of the two out"));
+        faults.push(format!("--seed decides the teaching too, which {from} takes from the folder: leave one of the two out"));
     }
     if in_the_middle && global.robot.is_some() {
         faults.push("--robot cannot be changed in the middle of a run: leave --from-time out".to_owned());

@@ -78,6 +78,9 @@ fn moved(arguments: &Generate, out: Option<&Path>, terminal: &Terminal) -> Resul
         skill.force = None;
     }
     let failed = |error: LearningError| Failure::of_learning(&arguments.skill, &error);
+    if arguments.observe.is_none() {
+        skill.ends_agree(&settings).map_err(failed)?;
+    }
     let asked = skill.request(&settings).map_err(failed)?;
     let outside = Outside::of(&skill, &asked, &settings).map_err(failed)?;
     if let Some(most) = arguments.deny_extrapolation.filter(|most| outside.worst() > *most) {

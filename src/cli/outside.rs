@@ -82,12 +82,8 @@ impl Beyond {
             ratio if ratio.is_finite() => Some(format!("a {what} lies outside what was demonstrated, by {} of its range", short(ratio))),
             _ => Some(format!("a {what} lies outside what was demonstrated, where it never varied")),
         };
-        let combined = (self.combined > self.single).then(|| match self.combined {
-            ratio if ratio.is_finite() => {
-                format!("combined with others as was not demonstrated, by {} of what they vary together", short(ratio))
-            }
-            _ => "combined with others as was not demonstrated, where they always changed together".to_owned(),
-        });
+        let combined = (self.combined > self.single)
+            .then(|| format!("combined with others as was not demonstrated, by {} of what they vary together", short(self.combined)));
         match (alone, combined) {
             (Some(alone), Some(combined)) => Some(format!("{alone}, and is {combined}")),
             (None, Some(combined)) => Some(format!("a {what} is {combined}")),

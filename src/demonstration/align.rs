@@ -62,7 +62,7 @@ fn features(dataset: &Dataset) -> Result<Vec<DMatrix<f64>>, DemonstrationError> 
         positions.push(grid.select(&dataset.motion)?);
     }
     let directions: Vec<DMatrix<f64>> = z_scored(positions.clone()).iter().map(directions).collect();
-    let places = z_scored(from_chords(&z_scored(positions)));
+    let places = of_common_scale(from_chords(&z_scored(positions)));
     Ok(places.iter().zip(&directions).map(|(place, direction)| joined(place, direction)).collect())
 }
 
@@ -78,6 +78,20 @@ fn z_scored(mut positions: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
         positions.iter_mut().for_each(|p| p.column_mut(j).apply(|x| *x = (*x - mean) * scale));
     }
     positions
+}
+
+/// All columns times one factor, so that together they vary as much as that many columns of deviation 1. A factor of its own for each would make
+/// the noise beside a straight path as loud as the way along it.
+fn of_common_scale(mut places: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
+    let Some((columns, rows)) = places.first().map(|p| (p.ncols(), places.len() * p.nrows())) else { return places };
+    let variance = |j: usize| {
+        let mean = places.iter().map(|p| p.column(j).sum()).sum::<f64>() / rows as f64;
+        places.iter().map(|p| p.column(j).iter().map(|x| (x - mean).powi(2)).sum::<f64>()).sum::<f64>() / rows as f64
+    };
+    let total: f64 = (0..columns).map(variance).sum();
+    let scale = if total > 0.0 { ((columns - 1).max(1) as f64 / total).sqrt() } else { 0.0 };
+    places.iter_mut().for_each(|p| *p *= scale);
+    places
 }
 
 /// A chord shorter than this fraction of what its movement spans has no direction to speak of (-).
@@ -274,6 +288,27 @@ mod tests {
         let aligned = dataset(vec![walked(1.0, 2.0), walked(1.0, 5.0), walked(1.0, 1.0)]).aligned().unwrap();
         assert!(aligned.shifts_s.iter().all(|s| *s < 1e-9), "{:?}", aligned.shifts_s);
         assert!(dataset(vec![walked(1.0, 2.0)]).aligned().unwrap().shifts_s[0] < 1e-9);
+    }
+
+    /// Contract: what is beside a straight path is noise, and says nothing about time.
+    #[test]
+    fn equal_timings_of_straight_paths_are_left_alone() {
+        let reach = |k: usize| {
+            let mut one = walked(1.0, 2.0);
+            let noise = |t: usize, j: usize| 5e-4 * ((t * 37 + j * 11 + k * 101) as f64).sin();
+            let s = |t: usize| (t as f64 / 200.0).powi(2) * (3.0 - t as f64 / 100.0);
+            let values = DMatrix::from_fn(201, 3, |t, j| {
+                [(0.5 + 0.1 * k as f64) * s(t), 0.2 * s(t), 0.5][j] + if j < 2 { noise(t, j) } else { 0.0 }
+            });
+            one.trajectory = Trajectory::new(one.trajectory.times_s().to_vec(), one.trajectory.columns().to_vec(), values).unwrap();
+            one
+        };
+        for motion in [&["x_m", "y_m"][..], &["x_m"]] {
+            let mut straight = dataset((0..5).map(reach).collect());
+            straight.motion = motion.iter().map(|name| (*name).to_owned()).collect();
+            let aligned = straight.aligned().unwrap();
+            assert!(aligned.shifts_s.iter().all(|s| *s < 0.03), "{motion:?}: {:?}", aligned.shifts_s);
+        }
     }
 
     /// Contract: another start, or another size, of one path in one timing is no other timing, though the places are others.

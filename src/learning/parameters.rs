@@ -98,14 +98,14 @@ impl ParameterSpace {
         let combined = self.combinations.iter().map(|combination| {
             let along: f64 = combination.direction.iter().zip(&widths).map(|(v, x)| v * x).sum();
             let (distance, width) = (outside(combination.range, along), combination.range[1] - combination.range[0]);
-            if distance <= ROUNDING { 0.0 } else { distance / if width <= ROUNDING { 0.0 } else { width } }
+            if distance <= ROUNDING { 0.0 } else { distance / width.max(ROUNDING) }
         });
         combined.fold(0.0, f64::max)
     }
 }
 
-/// What is rounding along a combination (widths of ranges).
-const ROUNDING: f64 = 1e-9;
+/// What is rounding along a combination (widths of ranges): digits that a person leaves out.
+const ROUNDING: f64 = 1e-3;
 
 fn outside([from, to]: [f64; 2], value: f64) -> f64 {
     (from - value).max(value - to).max(0.0)

@@ -31,7 +31,7 @@ pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared], settings: &Le
     if lwr && basis < settings.lwr_basis {
         let (asked, rate) = (settings.lwr_basis, settings.rate_hz);
         warnings.push(format!(
-            "the baseline has {basis} basis functions instead of {asked}: at {rate} Hz there are no more than twice as many samples"
+            "the baseline has {basis} basis functions instead of {asked}: at {rate} Hz the shortest demonstration has about twice as many samples"
         ));
     }
     if prepared.len() == 1 {

@@ -65,7 +65,7 @@ fn row_beyond_door(cabinet: &Node) -> Option<Fault> {
     let (first, spacing, handles) = (number("first_handle_m")?, number("handle_spacing_m")?, number("handles")?);
     let (width, radius) = (*cabinet.get("door_size_m")?.as_numbers().first()?, number("handle_radius_m")?);
     let (nearest, furthest) = (radius, width - radius);
-    if !(nearest..=furthest).contains(&first) {
+    if !(nearest - ROUNDING_M..=furthest + ROUNDING_M).contains(&first) {
         let message = format!("the first handle is {} m from the hinge, off the door, which is {} m wide", plain(first), plain(width));
         let fault = Fault::at(Code::Conflict, cabinet.get("first_handle_m")?.origin, message);
         return Some(fault.expected(format!("{} m … {} m, or a wider door (`door_size_m`)", plain(nearest), plain(furthest))));

@@ -3,7 +3,7 @@
 //! An object says what it is and where it stands; [`super::scene`] builds it in the engine. A quantity of an object may be a number or the
 //! name of a task parameter, so that one file describes every setting in which a skill is taught and executed.
 
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Isometry3, Point3, Translation3, UnitComplex, UnitQuaternion, Vector2, Vector3};
 
 use super::{Cabinet, Parameters, Quantity};
 
@@ -155,7 +155,8 @@ impl Object {
     /// Whether it is a table under the centre of `other`.
     pub fn carries(&self, other: &Object, parameters: &Parameters) -> bool {
         let ObjectKind::Table { size_m, .. } = &self.kind else { return false };
-        let away = other.center(parameters) - self.center(parameters);
+        let turned = UnitComplex::new(-self.yaw_rad.resolve(parameters));
+        let away = turned * (other.center(parameters) - self.center(parameters));
         away.x.abs() <= size_m.x / 2.0 && away.y.abs() <= size_m.y / 2.0
     }
 

@@ -6,7 +6,7 @@ use super::Skill;
 use crate::demonstration::ParameterSource;
 use crate::learning::{ExecutionSettings, FeatureMap, LearningError};
 
-/// How far a parameter may be from the end that it is, relative to both (-): digits that a person leaves out.
+/// How far a parameter may be from the end that it is, relative to both, or absolutely where both are below 1: digits that a person leaves out.
 const SAME: f64 = 1e-3;
 
 /// Parameters, start and goal of one execution.
@@ -32,11 +32,7 @@ impl Skill {
         let goal = checked("goal", settings.goal.as_deref(), d)?;
         let theta = match self.parameter_source {
             ParameterSource::Given => self.motion.parameters.resolve(&settings.theta_m)?,
-            source if !settings.theta_m.is_empty() => {
-                let theta = self.motion.parameters.resolve(&settings.theta_m)?;
-                self.agree(source, &theta, start.as_ref(), goal.as_ref())?;
-                theta
-            }
+            _ if !settings.theta_m.is_empty() => self.motion.parameters.resolve(&settings.theta_m)?,
             source => self.read_off(source, start.as_ref(), goal.as_ref())?,
         };
         let (x0, g) = self.ends_at(&theta);
@@ -51,20 +47,25 @@ impl Skill {
         Ok(self.motion.parameters.extrapolation(&self.request(settings)?.theta))
     }
 
-    /// Parameters that *are* an end of the movement, given beside that end.
-    fn agree(
-        &self,
-        source: ParameterSource,
-        theta: &DVector<f64>,
-        start: Option<&DVector<f64>>,
-        goal: Option<&DVector<f64>>,
-    ) -> Result<(), LearningError> {
-        let Ok(read) = self.read_off(source, start, goal) else { return Ok(()) };
+    /// Whether parameters that *are* an end of the movement are what that end says, when both are given. [`Self::request`] lets the
+    /// parameters and the end each have their own way.
+    ///
+    /// # Errors
+    /// When they are not; and as [`Self::request`].
+    pub fn ends_agree(&self, settings: &ExecutionSettings) -> Result<(), LearningError> {
+        let d = self.motion.columns.len();
+        let (start, goal) = (checked("start", settings.start.as_deref(), d)?, checked("goal", settings.goal.as_deref(), d)?);
+        let source = self.parameter_source;
+        if source == ParameterSource::Given || settings.theta_m.is_empty() {
+            return Ok(());
+        }
+        let theta = self.motion.parameters.resolve(&settings.theta_m)?;
+        let Ok(read) = self.read_off(source, start.as_ref(), goal.as_ref()) else { return Ok(()) };
         for (name, (given, read)) in self.motion.parameters.names.iter().zip(theta.iter().zip(read.iter())) {
             if (given - read).abs() > SAME * given.abs().max(read.abs()).max(1.0) {
                 let word = source.word();
                 return Err(LearningError::Request(format!(
-                    "{name} is {given}, but the start and goal that are asked for make it {read}: give one of the two, the parameters are the {word}"
+                    "{name} is {given}, but the ends that are asked for make it {read}: give one of the two, the parameters are the {word}"
                 )));
             }
         }
