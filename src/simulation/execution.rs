@@ -124,16 +124,10 @@ fn loop_with_snapshots(
     while left > 0 {
         let now = run.world.step();
         let stretch = if every == 0 { left } else { left.min(every - now % every) };
-        let mut goes_on = true;
-        let observed = |now: &Published<SkillController>| {
-            goes_on = publish(now, sums);
-            goes_on
-        };
-        run.run_while(stretch, |_, _| {}, observed)?;
-        left -= stretch;
-        if !goes_on {
+        if !run.run_while(stretch, |_, _| {}, |now| publish(now, sums))? {
             return Ok(());
         }
+        left -= stretch;
         if left > 0 {
             let rest = Rest {
                 controller: run.controller.snapshot(),

@@ -56,18 +56,18 @@ impl<C: Controller> StepLoop<'_, C> {
         self.run_while(steps, before, always).map(|_| ())
     }
 
-    /// The same for at most `steps` steps: the one after which `publish` says no is the last. Returns how many there were.
+    /// The same for at most `steps` steps: the one after which `publish` says no is the last. Returns whether it never did.
     pub(super) fn run_while(
         &mut self,
         steps: u64,
         mut before: impl FnMut(&mut C, &World),
         mut publish: impl FnMut(&Published<C>) -> bool,
-    ) -> Result<u64, SimulationError> {
+    ) -> Result<bool, SimulationError> {
         let joints = self.world.arm_joints();
         let mut observation = Observation::zero(joints);
         let mut command = Command::idle(joints);
         let mut idle = IdleArm::new(self.world.idle_joints());
-        for step in 1..=steps {
+        for _ in 0..steps {
             self.phase.goes_on(self.world)?;
             sense(self.world, self.sensors, &mut observation);
             before(self.controller, self.world);
@@ -86,10 +86,10 @@ impl<C: Controller> StepLoop<'_, C> {
             act(self.world, &command, &idle.command, hand);
             self.world.advance()?;
             if !goes_on {
-                return Ok(step);
+                return Ok(false);
             }
         }
-        Ok(steps)
+        Ok(true)
     }
 }
 

@@ -9,13 +9,12 @@ use std::sync::OnceLock;
 use cpdmp::check::{Criterion, judge};
 use cpdmp::demonstration::Dataset;
 use cpdmp::learning::{self, Learned};
-use cpdmp::robot::EffortModel;
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::{Experiment, History, RunOutcome, Setup, Silent, SimulationError, demonstrate, perform};
-use cpdmp::world::{Cabinet, Grip, ObjectKind, Parameters, SensorSettings, door_turn, opening_rad};
+use cpdmp::world::{Cabinet, Grip, ObjectKind, Parameters, door_turn, opening_rad};
 use nalgebra::{Isometry3, Vector2};
 
-use crate::support::goes_on_from_every_snapshot;
+use crate::support::{faultless_sensors, goes_on_from_every_snapshot};
 
 /// Places of the handles along y, and of the places between and beyond them that were never shown (m).
 pub(super) const HANDLE_3_M: f64 = 0.35;
@@ -148,24 +147,13 @@ fn the_hook_and_the_door_move_as_a_hinge_lets_them() {
     }
 }
 
-/// Sensors and joints with which nothing is wrong.
-fn faultless() -> SensorSettings {
-    SensorSettings {
-        effort_noise_nm: 0.0,
-        effort_bias_nm: 0.0,
-        dry_friction_nm: 0.0,
-        model: EffortModel::FullDynamics,
-        filter_cutoff_hz: f64::INFINITY,
-    }
-}
-
 /// How far the force at the hook, as the world tells it, is from what the arm feels (N), and its torque about the hinge from what turns the
 /// door (N m), at most, when nothing is wrong with the arm's sensors and joints.
 fn mismatch_of_forces(solver_iterations: usize) -> [f64; 2] {
     let scenario = scenario_with("cabinet_door.toml", &[]);
     let (experiment, outcome, _) = executed(&scenario, taught(), 0.32, |experiment| {
         experiment.physics.solver_iterations = solver_iterations;
-        experiment.robot.sensor = faultless();
+        experiment.robot.sensor = faultless_sensors();
     });
     let (cabinet, hinge) = cabinet(&experiment);
     let [m, friction_nm] = [&cabinet.mass_kg, &cabinet.friction_nm].map(|quantity| quantity.resolve(&experiment.parameters));

@@ -139,6 +139,18 @@ fn a_movement_of_the_joints_reaches_its_goal_and_is_moved_by_nobody_when_nobody_
     assert!(outcome.steps.iter().all(|record| record.deviation.norm() < 5e-3), "by no more than what the model expects wrongly");
 }
 
+/// Contract: a snapshot in the very step in which a run ends changes nothing about when it ends.
+#[test]
+fn snapshots_do_not_change_when_a_run_ends() {
+    let ended = |every: u64| {
+        let snapshots = format!("recording.snapshot_every_steps={every}");
+        let outcome = led(&["execution.phase_stopping=true", HELD, &snapshots]);
+        (outcome.state_hash, outcome.phases.last().expect("an execution").steps)
+    };
+    let whole = ended(0);
+    assert_eq!(ended(whole.1), whole);
+}
+
 /// Contract: what a skill in joint space, a measured state, a phase that waits and noisy sensors remember is part of a snapshot.
 #[test]
 fn runs_of_every_mode_are_taken_up_in_the_same_bits() {

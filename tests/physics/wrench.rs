@@ -2,11 +2,11 @@
 
 use cpdmp::control::{ArmModel, ImpedanceSettings, Observation, PoseTracker, WrenchObserver};
 use cpdmp::robot::baxter::BAXTER_URDF;
-use cpdmp::robot::{Attachment, EffortModel, JointCommand, LoadOptions, RobotModel, electric_gripper, parse};
+use cpdmp::robot::{Attachment, JointCommand, LoadOptions, RobotModel, electric_gripper, parse};
 use cpdmp::world::{EffortSensors, HandWrench, SensorSettings, World};
 use nalgebra::{Isometry3, Translation3, Vector3, Vector6};
 
-use crate::support::{LEFT_POSTURE, baxter, world};
+use crate::support::{LEFT_POSTURE, baxter, faultless_sensors, world};
 
 const G: [f64; 3] = [0.0, 0.0, -9.81];
 const STEP_S: f64 = 1e-3;
@@ -66,21 +66,11 @@ impl Rig {
     }
 }
 
-fn perfect() -> SensorSettings {
-    SensorSettings {
-        effort_noise_nm: 0.0,
-        effort_bias_nm: 0.0,
-        dry_friction_nm: 0.0,
-        model: EffortModel::FullDynamics,
-        filter_cutoff_hz: f64::INFINITY,
-    }
-}
-
 #[test]
 fn with_perfect_sensors_a_push_of_10_n_is_estimated_within_0_05_n_at_rest_and_moving() {
     let push = Vector3::new(6.0, 0.0, -8.0);
     for radius_m in [0.0, 0.1] {
-        let seen = Rig::new(&baxter(), &perfect(), radius_m).estimates(push, 0.01);
+        let seen = Rig::new(&baxter(), &faultless_sensors(), radius_m).estimates(push, 0.01);
         let worst = seen.iter().map(|w| (w.fixed_rows::<3>(0) - push).norm()).fold(0.0, f64::max);
         println!("radius {radius_m} m: largest error {worst:.5} N over {} estimates", seen.len());
         assert!(worst < 0.05, "radius {radius_m} m: {worst} N");
@@ -114,7 +104,7 @@ fn a_mass_hung_on_the_wrist_weighs_m_g() {
     };
     let options = LoadOptions { attachments: vec![electric_gripper(), weight], ..LoadOptions::default() };
     let heavy = parse(BAXTER_URDF, "baxter.urdf", &options).expect("a valid robot").model;
-    let mut rig = Rig::new(&baxter(), &perfect(), 0.0);
+    let mut rig = Rig::new(&baxter(), &faultless_sensors(), 0.0);
     rig.world = world(&heavy, &LEFT_POSTURE, &[], G, 0.0);
     let seen = rig.estimates(Vector3::zeros(), 1.5);
     let last = seen.last().expect("estimates");

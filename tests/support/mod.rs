@@ -3,9 +3,9 @@
 pub mod hand_made;
 
 use cpdmp::check::first_difference;
-use cpdmp::robot::{self, RobotModel};
+use cpdmp::robot::{self, EffortModel, RobotModel};
 use cpdmp::simulation::{Experiment, RunOutcome, Silent, Snapshots, WorldTrace, resume};
-use cpdmp::world::{Object, ObjectKind, Parameters, PhysicsSettings, Solid, World, WorldSettings};
+use cpdmp::world::{Object, ObjectKind, Parameters, PhysicsSettings, SensorSettings, Solid, World, WorldSettings};
 use nalgebra::{Vector2, Vector3};
 
 /// The posture of the left arm in the middle of the pick-and-place scene, tool down (rad).
@@ -61,5 +61,16 @@ pub fn goes_on_from_every_snapshot(experiment: &Experiment, outcome: &RunOutcome
         let own: Vec<WorldTrace> = outcome.traces.iter().filter_map(|world| world.after(snapshot.step)).collect();
         assert!(own.len() == 1 && !own[0].trace.steps.is_empty(), "nothing to compare after step {}", snapshot.step);
         assert_eq!(first_difference(&own, &again), None, "taken up after step {}", snapshot.step);
+    }
+}
+
+/// Sensors and joints with which nothing is wrong.
+pub fn faultless_sensors() -> SensorSettings {
+    SensorSettings {
+        effort_noise_nm: 0.0,
+        effort_bias_nm: 0.0,
+        dry_friction_nm: 0.0,
+        model: EffortModel::FullDynamics,
+        filter_cutoff_hz: f64::INFINITY,
     }
 }
