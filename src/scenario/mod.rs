@@ -14,6 +14,7 @@ mod check_coupling;
 mod check_doors;
 mod check_learning;
 mod check_names;
+mod check_overrides;
 mod check_planar;
 mod check_taught;
 mod check_times;
