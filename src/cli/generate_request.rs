@@ -5,6 +5,9 @@ use crate::learning::dmp::Integrator;
 use crate::learning::{ExecutionSettings, ParameterSpace, Skill};
 use crate::scenario::did_you_mean;
 
+/// The largest magnitude that can be asked for: squares of it stay finite.
+const LARGEST: f64 = 1e100;
+
 /// The settings of the movement.
 ///
 /// # Errors
@@ -103,6 +106,9 @@ fn assigned(flag: &str, typed: &[String], known: &[String], slips: &mut Vec<Stri
             slips.push(format!("{flag} {text}: `{name}` is given twice"));
         }
         match value.parse::<f64>() {
+            Ok(number) if number.is_finite() && number.abs() > LARGEST => {
+                slips.push(format!("{flag} {text}: `{value}` is too large to be computed with (up to {LARGEST:e})"));
+            }
             Ok(number) if number.is_finite() => values.push((name.to_owned(), number)),
             _ => slips.push(format!("{flag} {text}: `{value}` is not a finite number")),
         }

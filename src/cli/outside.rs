@@ -20,7 +20,12 @@ pub(super) struct Outside {
     force: Option<Beyond>,
     /// Variance for want of demonstrations over the variance that they show (-); none for the baseline.
     pub uncertainty: Option<f64>,
+    /// How far start and goal are from where the parameters put them, in lengths of the movement from start to goal (-).
+    ends: [f64; 2],
 }
+
+/// From how many lengths of the movement on an end that was asked for is told to be far away (-).
+const FAR: f64 = 1.0;
 
 impl Outside {
     /// Of what is asked of `skill`.
@@ -30,7 +35,11 @@ impl Outside {
             Some(model) => Some(Beyond::of(&model.parameters, &model.parameters.resolve(&settings.theta_f)?)),
             None => None,
         };
-        Ok(Self { motion, force, uncertainty: skill.motion.extrapolation_ratio(&asked.theta)? })
+        let (start, goal) = skill.ends_at(&asked.theta);
+        let length = (&goal - &start).norm();
+        let lengths = |asked: &DVector<f64>, learned: &DVector<f64>| if length > 0.0 { (asked - learned).norm() / length } else { 0.0 };
+        let ends = [lengths(&asked.start, &start), lengths(&asked.goal, &goal)];
+        Ok(Self { motion, force, uncertainty: skill.motion.extrapolation_ratio(&asked.theta)?, ends })
     }
 
     /// Of the motion's parameters.
@@ -55,7 +64,11 @@ impl Outside {
         });
         let motion = self.motion.told("parameter").map(|told| told + &guessed);
         let force = self.force.and_then(|beyond| beyond.told("parameter of the force"));
-        motion.into_iter().chain(force).collect()
+        let far = ["start", "goal"].into_iter().zip(self.ends).filter(|(_, lengths)| *lengths > FAR);
+        let far = far.map(|(end, lengths)| {
+            format!("the {end} is {} times the movement's length away from where it was learned to be", short(lengths))
+        });
+        motion.into_iter().chain(force).chain(far).collect()
     }
 }
 

@@ -77,6 +77,7 @@ pub use error::{DemonstrationError, Fault};
 pub use list_schema::dataset_schema;
 pub use parameter_source::ParameterSource;
 pub use read::Import;
+pub(crate) use resample::MOST_SAMPLES;
 pub use summary::{ColumnSummary, DatasetSummary, DemonstrationSummary};
 pub use trajectory::{GRIPPER_COLUMN, QUATERNION_COLUMNS, Trajectory};
 pub use trajectory_file::{FileFormat, read_trajectory, write_trajectory};

@@ -6,7 +6,7 @@ use super::{DemonstrationError, Fault, Trajectory};
 use crate::math::{same_hemisphere, slerp};
 
 /// The most samples one resampling makes: 100 days at 1 Hz, 2.4 h at 1 kHz.
-const MOST_SAMPLES: f64 = 8.64e6;
+pub(crate) const MOST_SAMPLES: f64 = 8.64e6;
 
 impl Trajectory {
     /// This trajectory at equally spaced times, from its first to its last moment, at about `rate_hz` (Hz, > 0): the rate is adjusted

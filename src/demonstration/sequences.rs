@@ -26,7 +26,8 @@ const RECOGNISED: [&str; 20] = [
     "trajectory_id",
 ];
 
-/// Time starts again where it falls back to within this share of the time passed so far (-); a smaller step back is a fault of the file.
+/// Time starts again where it falls back to within this share of the time passed so far (-); a smaller step back is a fault of the file, and
+/// so is a single time out of line, after which the old clock goes on.
 const RESTART: f64 = 0.05;
 
 /// One repetition.
@@ -70,7 +71,8 @@ pub(super) fn by_time(times: &[f64]) -> Vec<Sequence> {
     let mut sequences: Vec<Sequence> = Vec::new();
     let mut first = 0;
     for i in 0..times.len() {
-        let restarts = i > first + 1 && times[i] < times[i - 1] && times[i] - times[first] <= RESTART * (times[i - 1] - times[first]);
+        let falls = i > first + 1 && times[i] < times[i - 1] && times[i] - times[first] <= RESTART * (times[i - 1] - times[first]);
+        let restarts = falls && times.get(i + 1).is_none_or(|next| *next <= times[i - 1]);
         if restarts {
             sequences.push(Sequence { label: None, samples: (first..i).collect() });
             first = i;
@@ -90,6 +92,7 @@ mod tests {
         assert_eq!(lengths(&[0.0, 1.0, 2.0, 0.0, 1.0, 0.0, 1.0]), [3, 2, 2]);
         assert_eq!(lengths(&[0.0, 1.0, 2.0, 1.5, 3.0]), [5], "a slip is left for the check of times");
         assert_eq!(lengths(&[5.0, 6.0, 7.0, 0.5, 1.5]), [3, 2], "another recording's clock");
+        assert_eq!(lengths(&[0.0, 1.0, 2.0, 0.0, 4.0, 5.0]), [6], "one time stamp that was lost");
         assert_eq!((lengths(&[]), lengths(&[1.0])), (vec![0], vec![1]));
     }
 }

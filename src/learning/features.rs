@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The hidden Markov model, the start and the goal stay linear in `phi`. Far outside the demonstrations linear features go on straight,
-//! quadratic ones bend on, and bumps vanish: then the mean of the demonstrations is expected. A parameter that never varied has no `z`.
+//! quadratic ones bend on, and bumps vanish: what is expected then is one movement, whatever the parameters. A parameter that never varied has no `z`.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -98,6 +98,12 @@ impl FeatureMap {
     /// The map for demonstrated parameters (K of p); the seed decides where many values are gathered into few centres.
     #[must_use]
     pub fn of(features: Features, thetas: &[DVector<f64>], seed: u64) -> Self {
+        Self::scaled(features, thetas, &[], seed)
+    }
+
+    /// The same where each parameter counts by its standard deviation times a factor (p, each at least 1; none: 1).
+    #[must_use]
+    pub fn scaled(features: Features, thetas: &[DVector<f64>], factors: &[f64], seed: u64) -> Self {
         if thetas.first().is_none_or(|theta| theta.is_empty()) {
             return Self::Linear;
         }
@@ -105,7 +111,8 @@ impl FeatureMap {
             Features::Linear => Self::Linear,
             Features::Quadratic => Self::Quadratic(Standard::of(thetas)),
             Features::Rbf { centres, width } => {
-                let standard = Standard::of(thetas);
+                let mut standard = Standard::of(thetas);
+                standard.inverse_scale.iter_mut().zip(factors).for_each(|(inverse, factor)| *inverse /= factor);
                 let centres = centres_of(thetas.iter().map(|theta| standard.at(theta)).collect(), centres, seed);
                 Self::Rbf { width: width * mean_neighbour_distance(&centres), standard, centres }
             }
@@ -119,6 +126,21 @@ impl FeatureMap {
             Self::Linear => p,
             Self::Quadratic(_) => p + p * (p + 1) / 2,
             Self::Rbf { centres, .. } => centres.len(),
+        }
+    }
+
+    /// The factors of the features' spreads that follow from those of the parameters (p, or none): a product has its members'. Bumps have them
+    /// in their distances.
+    #[must_use]
+    pub fn factors(&self, of_parameters: &[f64]) -> Vec<f64> {
+        let g = of_parameters;
+        match self {
+            Self::Linear => g.to_vec(),
+            Self::Quadratic(_) => {
+                let products = (0..g.len()).flat_map(|i| (i..g.len()).map(move |j| g[i] * g[j]));
+                g.iter().copied().chain(products).collect()
+            }
+            Self::Rbf { .. } => Vec::new(),
         }
     }
 

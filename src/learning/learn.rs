@@ -9,7 +9,7 @@ use super::dmp::Lwr;
 use super::parts::{forcing_noise, gripper_profile, motion_model, orientation_profile, preparation};
 use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit, refine};
 use super::prepare::{Prepared, prepare};
-use super::{LearningError, LearningReport, LearningSettings, ParameterSpace, ShapingKind, Skill, warnings};
+use super::{FeatureMap, LearningError, LearningReport, LearningSettings, ParameterSpace, ShapingKind, Skill, warnings};
 use crate::demonstration::Dataset;
 
 /// A skill and how it came about.
@@ -46,20 +46,23 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     let aligned = settings.align.then(|| Alignment::of(dataset)).transpose()?;
     let (dataset, alignment_shifts_s) = aligned.as_ref().map_or((dataset, Vec::new()), |a| (&a.dataset, a.shifts_s.clone()));
     let prepared = prepare(dataset, settings)?;
+    let (features, settings) = motion_features(dataset, &prepared, settings, seed);
     let (settings, [motion_choices, force_choices]) = match first {
-        Some(_) => (settings.clone(), Default::default()),
-        None => filled_in(&prepared, settings, seed)?,
+        Some(_) => (settings, Default::default()),
+        None => filled_in(&prepared, &settings, &features, seed)?,
     };
     let settings = &settings;
     let mut warnings = warnings::about_data(dataset, &prepared, settings);
     warnings.extend(aligned.as_ref().and_then(|a| a.warning.clone()));
-    let (motion, force) =
-        rayon::join(|| motion_fit(dataset, &prepared, settings, seed, first), || force_fit(dataset, &prepared, settings, seed, first));
+    let (motion, force) = rayon::join(
+        || motion_fit(dataset, &prepared, settings, (&features, seed), first),
+        || force_fit(dataset, &prepared, settings, seed, first),
+    );
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
-    let (mut motion, ends) = motion_model(dataset, &prepared, settings, shaping, seed)?;
+    let (mut motion, ends) = motion_model(dataset, &prepared, settings, shaping, features)?;
     motion.evidence = motion_fit.as_ref().map(|fit| fit.evidence.clone()).unwrap_or_default();
     let (force, force_fit) = force.map_or((None, None), |(model, fit)| (Some(model), Some(fit)));
-    let orientation = orientation_profile(&prepared, settings);
+    let orientation = orientation_profile(&prepared, settings, &motion.parameters.features);
     let gripper = gripper_profile(&prepared, &mut warnings);
     let fits = [("motion", &motion_fit), ("force", &force_fit)];
     let histories = fits.iter().filter_map(|(name, fit)| Some(((*name).to_owned(), fit.as_ref()?.history.clone()))).collect();
@@ -73,7 +76,7 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     skill.check()?;
     let noise = forcing_noise(&prepared);
     let fits = [("motion", motion_fit.as_ref()), ("force", force_fit.as_ref())];
-    warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max()));
+    warnings.extend(warnings::about_models(&fits, &skill.compliance, noise.max(), &dataset.motion));
     let theta = prepared.iter().map(|p| &p.theta_m).sum::<DVector<f64>>() / prepared.len() as f64;
     let seen = (preparation(&prepared, settings), noise.iter().copied().collect());
     let report = LearningReport::of(&skill, &theta, fits.map(|(_, fit)| fit), seen, warnings)?;
@@ -93,7 +96,7 @@ fn motion_fit(
     dataset: &Dataset,
     prepared: &[Prepared],
     settings: &LearningSettings,
-    seed: u64,
+    (features, seed): (&FeatureMap, u64),
     first: Option<&Skill>,
 ) -> Result<MotionFit, LearningError> {
     let d = dataset.motion.len();
@@ -103,7 +106,7 @@ fn motion_fit(
         let lwr = Lwr::fit(&phases, &DMatrix::from_rows(&all), lwr_basis(prepared, settings), settings.alpha)?;
         return Ok((Shaping::Lwr(lwr), None, Compliance::stiff(0, d)));
     }
-    let sequences = seen_motion(prepared, settings, &motion_features(prepared, settings, seed));
+    let sequences = seen_motion(prepared, settings, features);
     let first = first.and_then(|skill| skill.motion.shaping.phmm());
     let fit = fit_from(first, &sequences, &settings.motion, seed)?;
     let noise = forcing_noise(prepared).max();

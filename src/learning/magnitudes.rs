@@ -1,7 +1,7 @@
 //! Whether numbers can be computed with: squares of what is learned must neither overflow nor vanish.
 
 use super::LearningError;
-use crate::demonstration::{Dataset, Demonstration, DemonstrationError, Fault};
+use crate::demonstration::{Dataset, Demonstration, DemonstrationError, Fault, MOST_SAMPLES};
 
 /// The largest magnitude that is learned from (in the column's own unit): squares and their sums stay finite.
 const LARGEST: f64 = 1e100;
@@ -11,7 +11,7 @@ const SMALLEST_CHANGE: f64 = 1e-100;
 pub(super) fn check(dataset: &Dataset, rate_hz: f64) -> Result<(), LearningError> {
     let demonstrations = &dataset.demonstrations;
     let mut faults: Vec<Fault> = demonstrations.iter().flat_map(|d| too_large(d, dataset)).collect();
-    faults.extend(demonstrations.iter().filter_map(|d| too_short(d, rate_hz)));
+    faults.extend(demonstrations.iter().filter_map(|d| too_short(d, rate_hz).or_else(|| too_long(d, rate_hz))));
     faults.extend(dataset.motion.iter().chain(&dataset.wrench).filter_map(|name| {
         let of = |d: &Demonstration| d.trajectory.column_index(name).map(|column| range(d.trajectory.values().column(column).iter()));
         too_still(dataset, name, demonstrations.iter().filter_map(of))
@@ -52,6 +52,14 @@ fn too_short(demonstration: &Demonstration, rate_hz: f64) -> Option<Fault> {
         format!("at least {period_s:.3} s, one period of rate_hz = {rate_hz}: are its times in seconds, is the rate high enough?");
     let fault = Fault { place: demonstration.name.clone(), column: Some("time_s".to_owned()), expected, ..Fault::default() };
     (duration_s < period_s).then(|| Fault { found: format!("a duration of {duration_s:e} s"), ..fault })
+}
+
+/// A demonstration of more samples than can be made of it at the rate that models learn at (Hz).
+fn too_long(demonstration: &Demonstration, rate_hz: f64) -> Option<Fault> {
+    let duration_s = demonstration.trajectory.duration_s();
+    let expected = format!("fewer than {MOST_SAMPLES:e} samples at rate_hz = {rate_hz}: are its times in seconds?");
+    let fault = Fault { place: demonstration.name.clone(), column: Some("time_s".to_owned()), expected, ..Fault::default() };
+    (duration_s * rate_hz >= MOST_SAMPLES).then(|| Fault { found: format!("a duration of {duration_s:e} s"), ..fault })
 }
 
 /// A column or parameter that changes, over all demonstrations, by less than can be squared.

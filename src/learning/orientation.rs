@@ -1,14 +1,14 @@
 //! The orientation of the hand over the phase: rotation vectors about a reference, regressed over all demonstrations.
 //!
 //! ```text
-//! q(u, theta) = Q(u) exp(r(u, theta))        r(u, theta) = sum_i psi_i(u) (mean_i + W_i theta) / sum_i psi_i(u)
+//! q(u, theta) = Q(u) exp(r(u, phi))        r(u, phi) = sum_i psi_i(u) (mean_i + W_i phi) / sum_i psi_i(u),   phi = phi(theta)
 //! ```
 //!
 //! `Q` is the mean orientation of all demonstrations, the same for every `u`, unless a demonstration turns half a turn or more away from
 //! it. Near a whole turn a rotation vector swings wildly while the hand hardly moves, so then `Q` moves too: along the mean path of the
 //! demonstrations, coming to rest softly at its end, and `r` is only what they differ from it.
 //!
-//! In execution `r` is a primitive of its own (1) with the spring and phase of the position. Its forcing term (4) is that of `r(u, theta)`:
+//! In execution `r` is a primitive of its own (1) with the spring and phase of the position. Its forcing term (4) is that of `r(u, phi)`:
 //! with `' = d/du` and `omega tau = sqrt(K)`, `f = r + 2 r' / sqrt(K) + r'' / K - g + (g - x0) s`, exact since `r` has closed derivatives.
 
 use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3, Vector4};
@@ -16,29 +16,30 @@ use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3, Vector4};
 use super::parameters::mean_and_deviations;
 use crate::math::{continuous_log, exp_map, mean_quaternion, same_hemisphere, smooth_step, solve_normal_equations};
 
-/// Rotation vectors about a reference, smooth in the time fraction `u` and linear in the parameters.
+/// Rotation vectors about a reference, smooth in the time fraction `u` and linear in the features of the parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrientationProfile {
     /// The mean orientation of all demonstrations.
     pub reference: UnitQuaternion<f64>,
     /// The reference that moves, as quaternions x, y, z, w at the basis centres (m x 4; blended and normalised); `None` when it stands.
     pub path: Option<DMatrix<f64>>,
-    /// Rotation vectors (rad) at the `m` basis centres `i / (m - 1)`, at `theta = 0` (m x 3).
+    /// Rotation vectors (rad) at the `m` basis centres `i / (m - 1)`, at `phi = 0` (m x 3).
     pub mean: DMatrix<f64>,
-    /// Their change with each parameter (p of m x 3).
+    /// Their change with each feature (q of m x 3).
     pub weights: Vec<DMatrix<f64>>,
 }
 
-/// One demonstration's orientations: time fractions (T), quaternions (T), parameters (p).
+/// One demonstration's orientations: time fractions (T), quaternions (T), features of its parameters (q).
 pub(super) struct OrientationSample<'a> {
     pub(super) fractions: &'a [f64],
     pub(super) orientations: Vec<UnitQuaternion<f64>>,
-    pub(super) theta: &'a DVector<f64>,
+    pub(super) phi: &'a DVector<f64>,
 }
 
 impl OrientationProfile {
-    /// Least squares over all samples with `basis` functions; `ridge` (demonstrations) holds the parameters' effect back.
-    pub(super) fn fit(demonstrations: &[OrientationSample], basis: usize, ridge: f64) -> Self {
+    /// Least squares over all samples with `basis` functions; `ridge` (demonstrations) holds the features' effect back, more where
+    /// the factors of their spreads (none: 1) are larger.
+    pub(super) fn fit(demonstrations: &[OrientationSample], basis: usize, ridge: f64, factors: &[f64]) -> Self {
         let reference = mean_quaternion(demonstrations.iter().flat_map(|d| &d.orientations));
         let rotations = |path: Option<&DMatrix<f64>>| -> Vec<Vec<Vector3<f64>>> {
             demonstrations.iter().map(|d| rotation_vectors(d, &reference, path)).collect()
@@ -49,11 +50,11 @@ impl OrientationProfile {
             vectors = rotations(path.as_ref());
         }
         let k = demonstrations.len() as f64;
-        let (mean_theta, deviations) = mean_and_deviations(&demonstrations.iter().map(|d| d.theta).collect::<Vec<_>>());
-        let p = mean_theta.len();
+        let (mean_phi, deviations) = mean_and_deviations(&demonstrations.iter().map(|d| d.phi).collect::<Vec<_>>());
+        let p = mean_phi.len();
         let spread = DVector::from_fn(p, |j, _| match deviations.column(j).norm() / k.sqrt() {
             0.0 => 1.0,
-            spread => spread,
+            spread => spread * factors.get(j).unwrap_or(&1.0),
         });
         let unknowns = basis * (1 + p);
         let (mut normal, mut moments) = (DMatrix::zeros(unknowns, unknowns), DMatrix::zeros(unknowns, 3));
@@ -75,35 +76,35 @@ impl OrientationProfile {
         let mut weights = Vec::new();
         for j in 0..p {
             let w = solution.rows(basis * (j + 1), basis) / spread[j];
-            mean -= &w * mean_theta[j];
+            mean -= &w * mean_phi[j];
             weights.push(w);
         }
         Self { reference, path, mean, weights }
     }
 
-    /// The same profile for all values of so many parameters; this one has none.
-    pub(super) fn blind_to(self, parameters: usize) -> Self {
-        Self { weights: vec![DMatrix::zeros(self.mean.nrows(), 3); parameters], ..self }
+    /// The same profile for all values of so many features; this one has none.
+    pub(super) fn blind_to(self, features: usize) -> Self {
+        Self { weights: vec![DMatrix::zeros(self.mean.nrows(), 3); features], ..self }
     }
 
-    /// The profile at `theta` (p), as one with no parameters left.
+    /// The profile at the features `phi` (q), as one with no features left.
     #[must_use]
-    pub fn at(&self, theta: &DVector<f64>) -> Self {
+    pub fn at(&self, phi: &DVector<f64>) -> Self {
         let mut mean = self.mean.clone();
-        for (w, value) in self.weights.iter().zip(theta.iter()) {
+        for (w, value) in self.weights.iter().zip(phi.iter()) {
             mean += w * *value;
         }
         Self { reference: self.reference, path: self.path.clone(), mean, weights: Vec::new() }
     }
 
-    /// The orientation at time fraction `u` (-; clamped to [0, 1]) with the parameters at zero. No allocation.
+    /// The orientation at time fraction `u` (-; clamped to [0, 1]) with the features at zero. No allocation.
     #[must_use]
     pub fn orientation(&self, u: f64) -> UnitQuaternion<f64> {
         self.frame(u).0 * exp_map(&self.turn(u)[0])
     }
 
     /// The rotation vector `r` (rad) and its first and second derivative by `u` (rad) at `u` (-; clamped to [0, 1]), with the
-    /// parameters at zero. No allocation.
+    /// features at zero. No allocation.
     #[must_use]
     pub fn turn(&self, u: f64) -> [Vector3<f64>; 3] {
         blend(&self.mean, u.clamp(0.0, 1.0)).map(|r| r.xyz())

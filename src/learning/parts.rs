@@ -2,12 +2,12 @@
 
 use nalgebra::DVector;
 
-use super::automatic::{motion_features, thetas};
+use super::automatic::thetas;
 use super::cpdmp::{MotionModel, Shaping};
 use super::ends::{EndRule, Ends, EndsReport, ends};
 use super::orientation::OrientationSample;
 use super::prepare::Prepared;
-use super::{GripperProfile, LearningError, LearningSettings, OrientationProfile, ParameterSpace, Preparation, ShapingKind};
+use super::{FeatureMap, GripperProfile, LearningError, LearningSettings, OrientationProfile, ParameterSpace, Preparation, ShapingKind};
 use crate::demonstration::Dataset;
 
 pub(super) fn motion_model(
@@ -15,9 +15,8 @@ pub(super) fn motion_model(
     prepared: &[Prepared],
     settings: &LearningSettings,
     shaping: Shaping,
-    seed: u64,
+    features: FeatureMap,
 ) -> Result<(MotionModel, Option<EndsReport>), LearningError> {
-    let features = motion_features(prepared, settings, seed);
     let parameters = ParameterSpace::of(dataset.parameters_m(), &thetas(prepared, |p| &p.theta_m)).with_features(features);
     let given = if settings.shaping == ShapingKind::Lwr { settings.lwr_ends } else { EndRule::Regression };
     let Ends { start, goal, report } = ends(dataset, prepared, &parameters, given)?;
@@ -37,15 +36,17 @@ pub(super) fn motion_model(
     Ok((model, report))
 }
 
-pub(super) fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Option<OrientationProfile> {
-    let (nothing, blind) = (DVector::zeros(0), settings.shaping == ShapingKind::Lwr);
-    let samples = prepared.iter().map(|p| {
-        let theta = if blind { &nothing } else { &p.theta_m };
-        Some(OrientationSample { fractions: &p.fractions, orientations: p.trajectory.orientations()?, theta })
-    });
+pub(super) fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings, features: &FeatureMap) -> Option<OrientationProfile> {
+    let (phis, blind) = (prepared.iter().map(|p| features.at(&p.theta_m)), settings.shaping == ShapingKind::Lwr);
+    let phis: Vec<DVector<f64>> = phis.map(|phi| if blind { DVector::zeros(0) } else { phi }).collect();
+    let samples = prepared
+        .iter()
+        .zip(&phis)
+        .map(|(p, phi)| Some(OrientationSample { fractions: &p.fractions, orientations: p.trajectory.orientations()?, phi }));
     let samples = samples.collect::<Option<Vec<_>>>()?;
-    let profile = OrientationProfile::fit(&samples, settings.orientation_basis, settings.motion.ridge);
-    Some(if blind { profile.blind_to(prepared[0].theta_m.len()) } else { profile })
+    let motion = &settings.motion;
+    let profile = OrientationProfile::fit(&samples, settings.orientation_basis, motion.ridge, &motion.scale_factors);
+    Some(if blind { profile.blind_to(features.count(prepared[0].theta_m.len())) } else { profile })
 }
 
 pub(super) fn gripper_profile(prepared: &[Prepared], warnings: &mut Vec<String>) -> Option<GripperProfile> {

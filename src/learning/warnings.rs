@@ -14,6 +14,10 @@ use crate::math::{LeastSquares, solve_normal_equations};
 
 /// A gap in a recording counts as one from this length (s).
 const LONG_GAP_S: f64 = 0.5;
+/// Durations are spoken of when they differ by this part of their mean (-), and follow the parameters when those explain this part of their
+/// variance (-).
+const NOTED_DURATIONS: f64 = 0.2;
+const FOLLOWS: f64 = 0.9;
 /// A window counts as widened from this factor on (-): less is rounding to whole samples.
 const WIDENED: f64 = 1.5;
 /// Condition number of the parameters' correlations from which they count as collinear (-): the square of Belsley's index of 30.
@@ -49,6 +53,7 @@ pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared], settings: &Le
     let thetas = |of: fn(&Prepared) -> &DVector<f64>| prepared.iter().map(of).collect::<Vec<_>>();
     warnings.extend(about_parameters("theta_m", &dataset.parameters_m(), &thetas(|p| &p.theta_m)));
     warnings.extend(about_parameters("theta_f", &dataset.parameters_f(), &thetas(|p| &p.theta_f)));
+    warnings.extend(about_durations(dataset, prepared));
     for (what, has) in [("an orientation", orientation as fn(&Prepared) -> bool), ("a gripper", gripper)] {
         let with = prepared.iter().filter(|p| has(p)).count();
         if with != 0 && with != prepared.len() {
@@ -76,6 +81,25 @@ fn gripper(p: &Prepared) -> bool {
     p.trajectory.gripper().is_some()
 }
 
+/// Durations that follow the parameters: a skill has one.
+fn about_durations(dataset: &Dataset, prepared: &[Prepared]) -> Option<String> {
+    let thetas: Vec<&DVector<f64>> = prepared.iter().map(|p| &p.theta_m).collect();
+    let durations: Vec<f64> = prepared.iter().map(|p| p.duration_s).collect();
+    let (count, mean) = (durations.len() as f64, durations.iter().sum::<f64>() / durations.len() as f64);
+    let [least, most] = [durations.iter().copied().fold(f64::INFINITY, f64::min), durations.iter().copied().fold(0.0, f64::max)];
+    let (_, deviations) = mean_and_deviations(&thetas);
+    if most - least < NOTED_DURATIONS * mean || count < deviations.ncols() as f64 + 3.0 {
+        return None;
+    }
+    let off = DMatrix::from_iterator(durations.len(), 1, durations.iter().map(|duration| duration - mean));
+    let fitted = &deviations * solve_normal_equations(&deviations.tr_mul(&deviations), &deviations.tr_mul(&off)).solution;
+    let explained = 1.0 - (&off - fitted).norm_squared() / off.norm_squared();
+    (explained > FOLLOWS).then(|| {
+        let names = dataset.parameters_m().join(", ");
+        format!("durations from {least:.3} to {most:.3} s follow [{names}]: the skill takes their mean, {mean:.3} s, unless another is asked for")
+    })
+}
+
 /// Rank and condition of the parameters over the demonstrations.
 fn about_parameters(kind: &str, names: &[String], thetas: &[&DVector<f64>]) -> Option<String> {
     let p = names.len();
@@ -89,7 +113,8 @@ fn about_parameters(kind: &str, names: &[String], thetas: &[&DVector<f64>]) -> O
     if rank < p {
         let (constant, changing): (Vec<usize>, Vec<usize>) = (0..p).partition(|j| scatter[(*j, *j)] == 0.0);
         let named = |which: &[usize]| which.iter().map(|j| names[*j].as_str()).collect::<Vec<_>>().join(", ");
-        let still = format!("{} never changes and has no effect", named(&constant));
+        let many = usize::from(constant.len() > 1);
+        let still = format!("{} never change{} and {} no effect", named(&constant), ["s", ""][many], ["has", "have"][many]);
         let together = format!("{} change together, and only their combination is learned", named(&changing));
         let consequence = match (constant.is_empty(), rank < changing.len()) {
             (false, true) => format!("{still}; {together}"),
@@ -103,9 +128,15 @@ fn about_parameters(kind: &str, names: &[String], thetas: &[&DVector<f64>]) -> O
 }
 
 /// Fits that did not settle, and compliance that decides nothing.
-pub(super) fn about_models(fits: &[(&str, Option<&Fit>)], compliance: &Compliance, noise_m2: f64) -> Vec<String> {
+pub(super) fn about_models(fits: &[(&str, Option<&Fit>)], compliance: &Compliance, noise_m2: f64, columns: &[String]) -> Vec<String> {
     let mut warnings = Vec::new();
     for (name, fit) in fits {
+        if fit.is_some_and(|fit| !fit.shared) {
+            let (model, help) = (format!("the {name} model"), "fewer states, or more demonstrations, help");
+            warnings.push(format!(
+                "{model}: from every start, some states belong to few demonstrations, and what it predicts mixes them; {help}"
+            ));
+        }
         let ended = match fit.map(|f| f.status) {
             Some(FitStatus::IterationLimit) => "used all iterations without converging",
             Some(FitStatus::Fell) => "stopped because its likelihood fell",
@@ -116,14 +147,23 @@ pub(super) fn about_models(fits: &[(&str, Option<&Fit>)], compliance: &Complianc
     }
     let complying = compliance.beta.iter().filter(|beta| **beta != 0.0).count();
     let (states, sigma) = (compliance.beta.len(), compliance.threshold_m2);
+    let of = |suffix: &str| columns.iter().any(|name| name.ends_with(suffix));
+    let unit = if of("_m") {
+        "m^2"
+    } else if of("_rad") {
+        "rad^2"
+    } else {
+        "of the columns' units squared"
+    };
     if states > 0 && (complying == 0 || complying == states) {
         let who = if complying == 0 { "no state" } else { "every state" };
         let (least, most) = compliance.values_m2.iter().fold((f64::INFINITY, 0.0f64), |(a, b), v| (a.min(*v), b.max(*v)));
-        warnings.push(format!("{who} complies: values from {least:.1e} to {most:.1e} m^2, threshold {sigma:.1e} m^2"));
+        warnings.push(format!("{who} complies: values from {least:.1e} to {most:.1e}, threshold {sigma:.1e} {unit}"));
     }
     if states > 0 && sigma < noise_m2 {
-        warnings
-            .push(format!("the compliance threshold {sigma:.1e} m^2 lies below the sensor noise in the forcing term, {noise_m2:.1e} m^2"));
+        warnings.push(format!(
+            "the compliance threshold {sigma:.1e} {unit} lies below the sensor noise in the forcing term, {noise_m2:.1e} {unit}"
+        ));
     }
     warnings
 }

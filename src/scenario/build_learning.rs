@@ -62,6 +62,7 @@ fn hidden_markov_model(table: &Node, default: &PhmmSettings) -> PhmmSettings {
         },
         covariance: if table.text("covariance") == "fixed" { CovarianceMode::Fixed } else { CovarianceMode::Estimated },
         ridge: if table.text("ridge") == AUTO { default.ridge } else { table.number("ridge") },
+        scale_factors: default.scale_factors.clone(),
         covariance_floor: table.number("covariance_floor"),
         kmeans_starts: table.count("kmeans_starts"),
         max_iterations: table.size("max_iterations"),

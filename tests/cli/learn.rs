@@ -443,3 +443,54 @@ fn a_parameter_that_differs_by_rounding_never_varied() {
     assert!(!asked("height_m=0.30000000000000001").contains("warning"), "{}", asked("height_m=0.3"));
     assert!(asked("height_m=0.35").contains("where it never varied"), "{}", asked("height_m=0.35"));
 }
+
+#[test]
+fn a_lost_time_stamp_is_a_fault_and_begins_no_repetition() {
+    let rows = |i: usize| format!("{},{}\n", if i == 76 { 0.0 } else { 0.02 * i as f64 }, (0.02 * i as f64).sin());
+    let text = (0..150).map(rows).collect::<String>();
+    let said = learn(&Folder::with(&[("strokes.csv", format!("time_s,x_m\n{text}").as_bytes())]), &[]);
+    assert_eq!(said.code, Some(3), "{}", said.stderr);
+    assert!(said.stderr.contains("row 78, column time_s: found 0 after 1.5"), "{}", said.stderr);
+}
+
+#[test]
+fn what_cannot_be_meant_is_told_before_it_is_generated() {
+    let folder = strokes();
+    assert_eq!(learn(&folder, &["--theta", "start", "--out", "s.json"]).code, Some(0));
+    let said = folder.call(&["generate", "s.json", "--start", "x_m=1e300"]);
+    assert_eq!(said.code, Some(2), "{}", said.stderr);
+    assert!(said.stderr.contains("`1e300` is too large"), "{}", said.stderr);
+    let said = folder.call(&["generate", "s.json", "--start", "x_m=0.1", "--goal", "y_m=-40"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(said.stderr.contains("the goal is") && said.stderr.contains("times the movement's length away"), "{}", said.stderr);
+}
+
+/// Contract: parameters that are the start itself are seen, not estimated.
+#[test]
+fn the_start_of_an_observed_part_is_the_start() {
+    let folder = strokes();
+    assert_eq!(learn(&folder, &["--theta", "start", "--out", "s.json"]).code, Some(0));
+    let said = folder.call(&["generate", "s.json", "--start", "x_m=0.31", "--start", "y_m=0.07", "--dt", "0.01"]);
+    let part: String = said.stdout.lines().take(60).map(|line| format!("{line}\n")).collect();
+    std::fs::write(folder.path().join("part.csv"), &part).expect("written");
+    let said = folder.call(&["generate", "s.json", "--observe", "part.csv", "--dt", "0.01"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    let cells = |line: &str| line.split(',').map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>();
+    let (seen, made) = (cells(part.lines().nth(1).expect("a sample")), cells(said.stdout.lines().nth(1).expect("a sample")));
+    assert!(seen.iter().zip(&made).all(|(a, b)| (a - b).abs() < 1e-9), "{seen:?} and {made:?}");
+}
+
+#[test]
+fn durations_that_follow_a_parameter_are_told() {
+    let mut list = "schema_version = 1\nmotion = [\"x_m\"]\n".to_owned();
+    let mut files = Vec::new();
+    for k in 1..6 {
+        let rows: String = (0..100).map(|i| format!("{},{}\n", 0.01 * f64::from(i * k), f64::from(i) / 99.0)).collect();
+        files.push((format!("{k}.csv"), format!("time_s,x_m\n{rows}")));
+        list += &format!("[[demonstration]]\nfile = \"{k}.csv\"\ntheta_m = {{ weight_kg = {k} }}\n");
+    }
+    files.push(("dataset.toml".to_owned(), list));
+    let folder = Folder::with(&files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect::<Vec<_>>());
+    let said = folder.call(&[&["learn", "."], &QUICK[..]].concat());
+    assert!(said.code == Some(0) && said.stdout.contains("follow [weight_kg]"), "{}{}", said.stdout, said.stderr);
+}

@@ -5,7 +5,10 @@ use std::f64::consts::PI;
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::demonstration::{Dataset, Demonstration, Trajectory};
 use cpdmp::learning::dmp::Integrator;
-use cpdmp::learning::{ExecutionSettings, LearningError, LearningSettings, Measured, Skill, SkillExecution, StepInput, learn};
+use cpdmp::learning::phmm::PhmmSettings;
+use cpdmp::learning::{
+    ExecutionSettings, Features, LearningError, LearningSettings, Measured, Skill, SkillExecution, StepInput, generate, learn,
+};
 use cpdmp::math::{exp_map, log_map, minimum_jerk};
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
@@ -201,4 +204,21 @@ fn orientations_that_make_no_sense_are_refused() {
     let without = Skill { orientation: None, ..skill };
     let asked = ExecutionSettings { start_orientation: Some(UnitQuaternion::identity()), ..at(0.0) };
     assert!(SkillExecution::new(&without, &asked).unwrap_err().to_string().contains("no orientation"));
+}
+
+/// Contract: the orientation sees the parameters through the same features as the position.
+#[test]
+fn a_turn_that_grows_with_the_square_of_a_parameter_is_learned_with_quadratic_features() {
+    let bent = |u: f64, theta: f64| exp_map(&(Vector3::y() * (theta * theta * minimum_jerk(u).position)));
+    let data = dataset(bent, &[0.2, 0.4, 0.6, 0.8, 1.0]);
+    let error = |features| {
+        let settings =
+            LearningSettings { motion: PhmmSettings { features, kmeans_starts: 0, ..PhmmSettings::default() }, ..Default::default() };
+        let skill = learn(&data, &settings, 0).unwrap().skill;
+        assert_eq!(Skill::from_json(&skill.to_json().unwrap()).unwrap(), skill);
+        let moved = generate(&skill, &at(0.7), 0.1, 1.0).unwrap();
+        moved.orientations().unwrap().last().unwrap().angle_to(&bent(1.0, 0.7))
+    };
+    let (linear, quadratic) = (error(Features::Linear), error(Features::Quadratic));
+    assert!(quadratic < 0.01 && linear > 3.0 * quadratic, "linear {linear} rad, quadratic {quadratic} rad");
 }

@@ -160,3 +160,42 @@ fn the_force_model_is_chosen_by_its_own_demonstrations() {
     // Nothing is told to the force model of this task, so there is no weight whose prior could be chosen.
     assert!(ridge.curve.is_empty() && ridge.ridge == settings.force.ridge);
 }
+
+/// Bows from starts that spread over 20 cm along x, and over half a millimetre along z, by chance.
+fn bows() -> Dataset {
+    let bow = |k: usize| {
+        let mut hand = stream(5, "bow", k as u64);
+        let mut draw = || standard_normal(&mut hand);
+        let (x0, z0, height) = (0.1 + 0.06 * draw(), 0.1 + 5e-4 * draw(), 0.1 + 0.02 * draw());
+        let values = DMatrix::from_fn(151, 2, |t, j| {
+            let u = t as f64 / 150.0;
+            let s = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+            if j == 0 { x0 + (0.5 - x0) * s } else { z0 + (0.1 - z0) * s + height * (std::f64::consts::PI * u).sin().powi(2) }
+        });
+        let times = (0..151).map(|t| 0.02 * f64::from(t)).collect();
+        let trajectory = Trajectory::new(times, ["x_m", "z_m"].map(str::to_owned).to_vec(), values).unwrap();
+        Demonstration { name: k.to_string(), trajectory, theta_m: Vec::new(), theta_f: Vec::new() }
+    };
+    let motion = ["x_m", "z_m"].map(str::to_owned).to_vec();
+    let demonstrations = (0..6).map(bow).collect();
+    let data = Dataset { motion, wrench: Vec::new(), parameter_source: ParameterSource::Given, demonstrations };
+    data.with_parameter_source(ParameterSource::Start)
+}
+
+/// Contract: a coordinate of the start that varied by chance alone has no say over the movement, however small its spread.
+#[test]
+fn a_start_that_hardly_varied_along_one_axis_moves_nothing_along_it() {
+    for features in [Features::Linear, Features::Quadratic] {
+        let settings = LearningSettings { motion: PhmmSettings { features, ..PhmmSettings::default() }, ..LearningSettings::default() };
+        let skill = learn(&bows(), &settings, 0).unwrap().skill;
+        let highest = |z0: f64| {
+            let settings = ExecutionSettings { start: Some(vec![0.1, z0]), ..ExecutionSettings::default() };
+            generate(&skill, &settings, 0.02, 1.0).unwrap().values().column(1).max()
+        };
+        let as_taught = highest(0.1);
+        for above in [0.005, 0.01, 0.05] {
+            let moved = highest(0.1 + above) - as_taught;
+            assert!(moved.abs() < 0.6 * above, "{features:?}: {above} m higher at the start, {moved} m at the top");
+        }
+    }
+}

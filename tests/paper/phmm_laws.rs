@@ -3,7 +3,7 @@
 
 use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::learning::phmm::{CovarianceMode, FitStatus, Phmm, PhmmSettings, Sequence, Topology, expect, fit, refine};
-use cpdmp::learning::{FeatureMap, Features, LearningSettings, Skill, learn};
+use cpdmp::learning::{FeatureMap, Features, Gmr, LearningSettings, Skill, learn};
 use cpdmp::math::{Gaussian, log_sum_exp, standard_normal, stream, uniform};
 use nalgebra::{DMatrix, DVector};
 
@@ -357,4 +357,37 @@ fn bent_features_follow_what_linear_ones_cannot() {
         fit.history.last().copied().unwrap()
     };
     assert!(error(Features::Quadratic) > error(Features::Linear) + 10.0);
+}
+
+/// Contract: from left to right a state is one of all demonstrations, also where a higher likelihood would have one for each of them.
+#[test]
+fn demonstrations_share_their_states() {
+    let thetas = [0.1, 0.2, 0.3, 0.4];
+    let sequence = |theta: &f64| {
+        let value = |t: usize| [t as f64 / 74.0, 10.0 * theta * theta * (std::f64::consts::PI * t as f64 / 74.0).sin()];
+        Sequence { values: (0..75).flat_map(value).collect(), dimension: 2, theta: DVector::from_element(1, *theta) }
+    };
+    let sequences: Vec<Sequence> = thetas.iter().map(sequence).collect();
+    let error = |features: Features, states: usize| {
+        let parameters: Vec<DVector<f64>> = thetas.iter().map(|theta| DVector::from_element(1, *theta)).collect();
+        let map = FeatureMap::of(features, &parameters, 0);
+        let seen: Vec<Sequence> = sequences.iter().cloned().map(|s| s.seen_through(&map)).collect();
+        let fit = fit(&seen, &PhmmSettings { states, features, ..Default::default() }, 0).unwrap();
+        let squares: f64 = seen
+            .iter()
+            .map(|s| {
+                let means: Vec<DVector<f64>> = (0..states).map(|i| fit.model.mean_at(i, &s.theta)).collect();
+                let gmr = Gmr::new(&means, &fit.model.covariances, 1).unwrap();
+                s.values.chunks_exact(2).map(|x| (gmr.mean(&x[..1])[0] - x[1]).powi(2)).sum::<f64>() / 75.0
+            })
+            .sum();
+        if fit.shared {
+            let rises = |i: usize| fit.model.mean_at(i + 1, &seen[0].theta)[0] > fit.model.mean_at(i, &seen[0].theta)[0];
+            assert!((0..states - 1).all(rises) && fit.evidence.iter().all(|e| e.demonstrations >= 2.0));
+        }
+        (squares / 4.0).sqrt()
+    };
+    // The largest value is 1.6.
+    assert!(error(Features::Quadratic, 8) < 0.05, "{}", error(Features::Quadratic, 8));
+    assert!(error(Features::Linear, 10) < 0.15, "{}", error(Features::Linear, 10));
 }

@@ -73,7 +73,7 @@ impl SkillExecution {
             stiffness: motion.stiffness,
             duration_s,
             movement: Movement::new(shaping, spring, integrator, &start, &goal),
-            turning: skill.orientation.as_ref().map(|o| Turning::new(o.at(&theta), &clock, orientations)),
+            turning: skill.orientation.as_ref().map(|o| Turning::new(o.at(&motion.parameters.features.at(&theta)), &clock, orientations)),
             gripper: skill.gripper.clone(),
             force: ExpectedWrench::of(skill, settings)?,
             coupling,

@@ -6,10 +6,10 @@ use super::InferenceSettings;
 use super::observation::Visit;
 use super::observed_part::Part;
 use super::prior::Prior;
-use crate::demonstration::Trajectory;
+use crate::demonstration::{ParameterSource, Trajectory};
 use crate::learning::cpdmp::{MotionModel, Shaping};
 use crate::learning::phmm::Phmm;
-use crate::learning::{LearningError, Skill};
+use crate::learning::{LearningError, Skill, parameter_selection};
 
 /// How an inference ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub enum InferenceStatus {
     Converged,
     /// All iterations were used.
     IterationLimit,
-    /// The skill has no parameter that its demonstrations varied.
+    /// The skill has no parameter that its demonstrations varied, or its parameters are the start, which is seen.
     NothingToInfer,
 }
 
@@ -45,7 +45,8 @@ const STILL: f64 = 1e-6;
 /// How often a Gauss-Newton step that makes things worse is halved.
 const MOST_HALVINGS: usize = 20;
 
-/// Infers `theta_m` from the first part of a movement, which starts where and when `observed` does.
+/// Infers `theta_m` from the first part of a movement, which starts where and when `observed` does. Parameters that are the start itself are
+/// read off it.
 ///
 /// # Errors
 /// When settings are outside their ranges, the skill has no parametric model, the part is too short to be differentiated or longer than
@@ -57,7 +58,10 @@ pub fn infer(skill: &Skill, observed: &Trajectory, settings: &InferenceSettings)
     };
     settings.check()?;
     let part = Part::of(motion, observed, settings)?;
-    let prior = Prior::of(&motion.parameters.ranges);
+    let prior = match skill.parameter_source {
+        ParameterSource::Start => Prior::certain(first_sample(skill, observed)?),
+        _ => Prior::of(&motion.parameters.ranges),
+    };
     let problem = Problem { skill, motion, phmm, part, prior };
     let mut best: Option<Inference> = None;
     for start in problem.prior.starts() {
@@ -67,6 +71,13 @@ pub fn infer(skill: &Skill, observed: &Trajectory, settings: &InferenceSettings)
         }
     }
     best.ok_or_else(|| LearningError::Model("the likelihood is not finite at any parameter".to_owned()))
+}
+
+/// The parameters (p) that are the start itself, which is seen.
+fn first_sample(skill: &Skill, observed: &Trajectory) -> Result<DVector<f64>, LearningError> {
+    let (columns, names) = (&skill.motion.columns, &skill.motion.parameters.names);
+    let start = observed.select(columns)?.row(0).transpose();
+    Ok(parameter_selection(skill.parameter_source, names, columns)? * start)
 }
 
 /// A skill and what was seen.

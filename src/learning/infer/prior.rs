@@ -21,6 +21,11 @@ impl Prior {
         Self { mean, inverse_width, active }
     }
 
+    /// Parameters that are known (p).
+    pub(super) fn certain(theta: DVector<f64>) -> Self {
+        Self { inverse_width: DVector::zeros(theta.len()), mean: theta, active: Vec::new() }
+    }
+
     /// The middle, then both ends of every range: bent features may have several optima.
     pub(super) fn starts(&self) -> Vec<DVector<f64>> {
         let mut starts = vec![self.mean.clone()];

@@ -82,7 +82,7 @@ impl<'a> Problem<'a> {
                 return Err(LearningError::Data(format!("sequence {k}, {place}: not a finite number")));
             }
         }
-        let scaling = Standardisation::of(sequences);
+        let scaling = Standardisation::of(sequences, &settings.scale_factors);
         let phis = sequences.iter().map(|s| s.theta.clone()).collect();
         let sequences = sequences.iter().map(|s| scaling.sequence(s)).collect();
         Ok(Self { settings, scaling, sequences, samples, phis })

@@ -35,8 +35,9 @@ pub struct StateEvidence {
 }
 
 impl StateEvidence {
-    /// From the state's groups, the demonstrations' features, and the strength of the prior (demonstrations).
-    pub(super) fn of(groups: &[&Group], phis: &[&DVector<f64>], ridge: f64) -> Self {
+    /// From the state's groups, the demonstrations' features, the strength of the prior (demonstrations) and the factors of the features'
+    /// spreads (none: 1).
+    pub(super) fn of(groups: &[&Group], phis: &[&DVector<f64>], ridge: f64, factors: &[f64]) -> Self {
         let (mean, deviations) = mean_and_deviations(phis);
         let spread = |j: usize| {
             let variance = deviations.column(j).norm_squared() / phis.len() as f64;
@@ -56,7 +57,7 @@ impl StateEvidence {
         let demonstrations = if known { count * count / squares } else { NEXT_TO_NONE };
         let share = |k: usize| if known { groups[k].count / count } else { 1.0 / phis.len() as f64 };
         let centre = phis.iter().enumerate().fold(DVector::zeros(q), |sum, (k, phi)| sum + *phi * share(k));
-        let prior = DVector::from_fn(q, |j, _| ridge.max(LEAST_PRIOR) * spread(j).powi(2));
+        let prior = DVector::from_fn(q, |j, _| ridge.max(LEAST_PRIOR) * (spread(j) * factors.get(j).unwrap_or(&1.0)).powi(2));
         let mut information = DMatrix::from_diagonal(&prior);
         for (k, phi) in phis.iter().enumerate() {
             let off = *phi - &centre;
@@ -102,7 +103,7 @@ mod tests {
 
     fn evidence(counts: &[f64], phis: &[[f64; 2]], ridge: f64) -> StateEvidence {
         let phis: Vec<DVector<f64>> = phis.iter().map(|phi| DVector::from_row_slice(phi)).collect();
-        StateEvidence::of(&groups(counts).iter().collect::<Vec<_>>(), &phis.iter().collect::<Vec<_>>(), ridge)
+        StateEvidence::of(&groups(counts).iter().collect::<Vec<_>>(), &phis.iter().collect::<Vec<_>>(), ridge, &[])
     }
 
     const SHOWN: [[f64; 2]; 5] = [[0.1, 3.0], [0.2, 1.0], [0.3, 2.5], [0.4, 1.5], [0.15, 2.0]];

@@ -1,4 +1,8 @@
-//! A model from several starts: the one with the highest objective is kept.
+//! A model from several starts: the one with the highest objective is kept, of those in which the demonstrations share the states.
+//!
+//! The highest likelihood alone may belong to a model that describes one demonstration with some states and another one with others. A
+//! regression over the phase then mixes movements that are not alike. From left to right a state is shared when at least half of the
+//! demonstrations take part in it, and the states' phases follow each other.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -6,7 +10,7 @@ use rayon::prelude::*;
 use super::baum_welch::{FitStatus, Problem, Run, demonstrations};
 use super::empty_states::EMPTY;
 use super::starts::first_model;
-use super::{Group, Phmm, PhmmSettings, Sequence, Start, StateEvidence, gather};
+use super::{Group, Phmm, PhmmSettings, Sequence, Start, StateEvidence, Topology, gather, prediction_error};
 use crate::learning::LearningError;
 
 /// How one start fared.
@@ -33,19 +37,24 @@ pub struct Fit {
     pub history: Vec<f64>,
     /// How the chosen start ended.
     pub status: FitStatus,
-    /// All starts, in the order they were made; the chosen one has the highest objective among those that left no state empty.
+    /// All starts, in the order they were made; the chosen one has the highest objective among those that left no state empty and whose
+    /// states are shared. When there is no such, it is the one whose regression repeats the demonstrations best.
     pub starts: Vec<StartReport>,
+    /// Whether the demonstrations share the states of a model from left to right; always true of an ergodic one.
+    pub shared: bool,
     /// How well the demonstrations determine each state's mean (N).
     pub evidence: Vec<StateEvidence>,
 }
 
 /// How often a fit that has settled with empty states goes on with those moved.
 const MOST_RESEEDINGS: usize = 3;
+/// The part of the demonstrations that takes part in a state that they share (-).
+const SHARED: f64 = 0.5;
 /// Most iterations of the plain model that only prepares the parametric one.
 const GLOBAL_ITERATIONS: usize = 50;
 
-/// Learns a model from every start of the settings, in parallel, and keeps the one with the highest objective. The result does not
-/// depend on the number of threads.
+/// Learns a model from every start of the settings, in parallel, and keeps the one with the highest objective among those whose states the
+/// demonstrations share. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// When the sequences disagree in shape, hold a number that is not finite, or cannot support so many states.
@@ -102,7 +111,8 @@ impl Problem<'_> {
         )))
     }
 
-    /// The usable run with the highest objective, in user units.
+    /// Of the usable runs whose states are shared that with the highest objective, or else the usable one with the best regression; in user
+    /// units.
     fn best(&self, runs: Vec<(Start, Run)>, usable: &[bool]) -> Result<Fit, LearningError> {
         let offset = self.scaling.log_likelihood_offset(self.samples);
         let report = |(start, run): &(Start, Run)| {
@@ -111,22 +121,40 @@ impl Problem<'_> {
             StartReport { start: *start, objective: run.objective() + offset, iterations, status: run.status, history }
         };
         let starts: Vec<StartReport> = runs.iter().map(report).collect();
-        let mut best: Option<usize> = None;
-        for (i, (_, run)) in runs.iter().enumerate().filter(|(i, (_, run))| usable[*i] && run.objective().is_finite()) {
-            if best.is_none_or(|b| run.objective() > runs[b].1.objective()) {
-                best = Some(i);
-            }
-        }
+        let candidate = |i: &usize| usable[*i] && runs[*i].1.objective().is_finite();
+        let rank = |i: usize| {
+            let (model, objective) = (&runs[i].1.model, runs[i].1.objective());
+            let shared = self.shares_states(model);
+            // Without shared states a likelihood says little; what counts in the end is the regression.
+            let regressed = || prediction_error(model, &self.sequences, &self.sequences).map_or(f64::NEG_INFINITY, |error| -error);
+            (shared, if shared { objective } else { regressed() }, i)
+        };
+        let ranked = (0..runs.len()).filter(candidate).map(rank);
+        // The first of equals.
+        let best = ranked.reduce(|best, other| if (other.0, other.1) > (best.0, best.1) { other } else { best });
         let collapsed = || {
             let floor = self.settings.covariance_floor;
             LearningError::Data(format!(
                 "no start gave a finite likelihood: a covariance collapsed; raise covariance_floor (now {floor}) or use fewer states"
             ))
         };
-        let best = best.ok_or_else(collapsed)?;
+        let (shared, _, best) = best.ok_or_else(collapsed)?;
         let evidence = self.evidence(&runs[best].1.model).ok_or_else(collapsed)?;
         let model = self.scaling.to_user(&runs[best].1.model);
-        Ok(Fit { model, history: starts[best].history.clone(), status: runs[best].1.status, starts, evidence })
+        Ok(Fit { model, history: starts[best].history.clone(), status: runs[best].1.status, starts, shared, evidence })
+    }
+
+    /// Whether half of the demonstrations or more take part in every state, and phases follow each other in the order of the states. Asked of
+    /// models from left to right only.
+    fn shares_states(&self, model: &Phmm) -> bool {
+        if self.settings.topology == Topology::Ergodic {
+            return true;
+        }
+        let first = &self.sequences[0];
+        let forward = (first.values[first.values.len() - first.dimension] - first.values[0]).signum();
+        let in_order = model.means.windows(2).all(|pair| (pair[1][0] - pair[0][0]) * forward > 0.0);
+        let half = SHARED * self.sequences.len() as f64;
+        in_order && self.evidence(model).is_some_and(|evidence| evidence.iter().all(|e| e.demonstrations >= half))
     }
 
     fn evidence(&self, model: &Phmm) -> Option<Vec<StateEvidence>> {
@@ -135,7 +163,7 @@ impl Problem<'_> {
         let phis: Vec<&DVector<f64>> = self.phis.iter().collect();
         let state = |i: usize| {
             let groups: Vec<&Group> = groups.iter().map(|g| &g[i]).collect();
-            StateEvidence::of(&groups, &phis, self.settings.ridge)
+            StateEvidence::of(&groups, &phis, self.settings.ridge, &self.settings.scale_factors)
         };
         Some((0..model.states()).map(state).collect())
     }

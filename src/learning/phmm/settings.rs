@@ -51,6 +51,9 @@ pub struct PhmmSettings {
     /// Strength of the prior `W = 0` (-, 0 to 1e6), as a number of demonstrations with standardised parameters. Default 0.1: the
     /// best of leave-one-out on hand-made demonstrations, and about 1 % of shrinkage for nine.
     pub ridge: f64,
+    /// By how many of its own standard deviations each feature counts as one (q, each at least 1; empty: all 1). Larger where a parameter
+    /// hardly varied beside others of its unit: what the prior allows it is then no more than what it allows them.
+    pub scale_factors: Vec<f64>,
     /// Smallest eigenvalue of a covariance whose columns are scaled to unit variance (-, 1e-8 to 0.1, or 0 for none). Default 1e-5: 0.3 % of a
     /// column's standard deviation, well below what people repeat. Below 1e-6 rounding alone moves the likelihood by more than 1e-9.
     pub covariance_floor: f64,
@@ -71,6 +74,7 @@ impl Default for PhmmSettings {
             features: Features::Linear,
             covariance: CovarianceMode::Estimated,
             ridge: 0.1,
+            scale_factors: Vec::new(),
             covariance_floor: 1e-5,
             kmeans_starts: 4,
             max_iterations: 200,

@@ -20,8 +20,9 @@ pub(super) struct Standardisation {
 }
 
 impl Standardisation {
-    /// From sequences of one dimension and one number of parameters.
-    pub(super) fn of(sequences: &[Sequence]) -> Self {
+    /// From sequences of one dimension and one number of parameters, each of which counts by its standard deviation times its factor (none:
+    /// 1).
+    pub(super) fn of(sequences: &[Sequence], factors: &[f64]) -> Self {
         let (d, p) = (sequences[0].dimension, sequences[0].theta.len());
         let samples = |i: usize| sequences.iter().flat_map(move |s| s.values.iter().skip(i).step_by(d).copied());
         let thetas = |j: usize| sequences.iter().map(move |s| s.theta[j]);
@@ -31,7 +32,7 @@ impl Standardisation {
             mean: DVector::from_iterator(d, columns.iter().map(|c| c.0)),
             scale: DVector::from_iterator(d, columns.iter().map(|c| c.1)),
             theta_mean: DVector::from_iterator(p, parameters.iter().map(|c| c.0)),
-            theta_scale: DVector::from_iterator(p, parameters.iter().map(|c| c.1)),
+            theta_scale: DVector::from_fn(p, |j, _| parameters[j].1 * factors.get(j).unwrap_or(&1.0)),
         }
     }
 

@@ -7,7 +7,6 @@ mod choice;
 mod cross_validation;
 mod folds;
 mod movement_error;
-mod prediction;
 mod reproduction;
 mod ridge;
 mod states;

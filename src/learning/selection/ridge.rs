@@ -3,9 +3,8 @@
 use rayon::prelude::*;
 
 use super::super::LearningError;
-use super::super::phmm::{PhmmSettings, Sequence, fit, refine};
+use super::super::phmm::{PhmmSettings, Sequence, fit, prediction_error, refine};
 use super::folds::folds;
-use super::prediction::prediction_error;
 
 /// Candidates for the strength: two per decade. 0 is not among them: with few demonstrations some prior is always better than none.
 pub const RIDGES: [f64; 11] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0];

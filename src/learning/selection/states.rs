@@ -5,9 +5,8 @@ use rayon::prelude::*;
 
 use super::super::LearningError;
 use super::super::parameters::mean_and_deviations;
-use super::super::phmm::{Phmm, PhmmSettings, Sequence, Topology, expect, fit};
+use super::super::phmm::{Phmm, PhmmSettings, Sequence, Topology, expect, fit, prediction_error};
 use super::folds::folds;
-use super::prediction::prediction_error;
 use crate::math::solve_normal_equations;
 
 /// What decides about the number of states.

@@ -46,7 +46,7 @@ impl Skill {
             selection(self.parameter_source, &m.parameters.names, &m.columns)?;
         }
         self.check_shaping(d, q)?;
-        self.check_profiles(p)?;
+        self.check_profiles(self.motion.parameters.feature_count())?;
         check_evidence(&m.evidence, m.states(), q)?;
         if let Some(force) = &self.force {
             force.phmm.check()?;
@@ -122,11 +122,12 @@ impl Skill {
         Ok(())
     }
 
-    fn check_profiles(&self, p: usize) -> Result<(), LearningError> {
+    fn check_profiles(&self, features: usize) -> Result<(), LearningError> {
         let wrong = |what: &str| Err(LearningError::Skill(what.to_owned()));
         if let Some(o) = &self.orientation {
             let shape = (o.mean.nrows(), 3);
-            let shaped = shape.0 >= 2 && o.mean.shape() == shape && o.weights.len() == p && o.weights.iter().all(|w| w.shape() == shape);
+            let shaped =
+                shape.0 >= 2 && o.mean.shape() == shape && o.weights.len() == features && o.weights.iter().all(|w| w.shape() == shape);
             let numbers = o.mean.iter().chain(o.weights.iter().flat_map(|w| w.iter()));
             let path = o.path.iter().flat_map(|path| path.iter());
             let path_shaped = o.path.as_ref().is_none_or(|path| path.shape() == (shape.0, 4));
@@ -134,7 +135,7 @@ impl Skill {
                 return wrong("orientation.reference_path is not a finite quaternion for every row of orientation.mean");
             }
             if !shaped || !finite(numbers) || !finite(o.reference.coords.iter()) {
-                return wrong("orientation is not a profile of finite rotation vectors for the motion's parameters");
+                return wrong("orientation is not a profile of finite rotation vectors for the motion's features");
             }
         }
         if let Some(g) = &self.gripper

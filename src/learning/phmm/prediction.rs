@@ -1,16 +1,16 @@
-//! How well a model predicts sequences that it was not learned from.
+//! How well the regression over a model predicts sequences.
 
 use nalgebra::DVector;
 
-use super::super::phmm::{Phmm, Sequence};
-use super::super::{Gmr, LearningError};
+use super::{Phmm, Sequence};
+use crate::learning::{Gmr, LearningError};
 
-/// Root mean square error of the regression (14) on `left_out`, each column in units of its standard deviation over `all` (-).
-pub(super) fn prediction_error(model: &Phmm, left_out: &[Sequence], all: &[Sequence]) -> Result<f64, LearningError> {
+/// Root mean square error of the regression (14) on `sequences`, each column in units of its standard deviation over `all` (-).
+pub(in crate::learning) fn prediction_error(model: &Phmm, sequences: &[Sequence], all: &[Sequence]) -> Result<f64, LearningError> {
     let d = model.dimension();
     let scale = spreads(all, d);
     let (mut squares, mut count) = (0.0, 0.0);
-    for sequence in left_out {
+    for sequence in sequences {
         let means: Vec<DVector<f64>> = (0..model.states()).map(|i| model.mean_at(i, &sequence.theta)).collect();
         let gmr = Gmr::new(&means, &model.covariances, 1)?;
         for t in 0..sequence.samples() {
