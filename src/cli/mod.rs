@@ -5,6 +5,7 @@
 
 mod args;
 mod beginning;
+mod beside;
 mod check;
 mod check_motion;
 mod check_run;

@@ -8,7 +8,7 @@ use super::key::Length::{AtLeast, Exactly};
 use super::key::To::{MovableObject, Object, ObjectOfKind, Parameter};
 use super::key::{Key, PathTo, Preset, Shape, Variant};
 use super::measure::{above, within};
-use super::schema_sweep::SWEEP;
+use super::schema_sweep::{BESIDE, SWEEP};
 
 /// The version of the language that this program reads and writes.
 pub(super) const SCHEMA_VERSION: i64 = 1;
@@ -34,6 +34,8 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
     Key::new("recording", Section(RECORDING), "what is written to the run folder").or_empty(),
     Key::new("allowed_contact", List(ALLOWED_CONTACT), "contacts that are no collisions").or_empty(),
     Key::new("criterion", List(CRITERION), "what the run must show").or_empty(),
+    Key::new("beside", List(BESIDE), "what is executed besides, after the same lessons in the same scene, to be held against the run")
+        .or_empty(),
     Key::new("sweep", List(SWEEP), "what `cpdmp sweep` varies from run to run; a single run leaves it aside").or_empty(),
 ]);
 

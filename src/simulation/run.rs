@@ -113,6 +113,7 @@ fn planned(setup: &Setup, dataset: &Dataset, learned: &Learned, lessons: Vec<Les
         traces: Vec::new(),
         snapshots: Snapshots::new(),
         final_objects: Vec::new(),
+        beside: Vec::new(),
     })
 }
 

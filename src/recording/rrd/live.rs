@@ -123,7 +123,7 @@ impl LiveRecording {
 /// Records until the run is over, so many steps together.
 fn record(stream: RecordingStream, experiment: &Experiment, together: usize, news: &Receiver<News>) -> Result<(), Fault> {
     stream.send_recording_name(format!("{} (live)", name(experiment)))?;
-    let mut chapters = Chapters { stream, experiment, work: Workplace::default(), duration_s: 1.0 };
+    let mut chapters = Chapters { stream, experiment, work: Workplace::default(), duration_s: 1.0, beside: &[] };
     let mut planned: Option<Box<RunOutcome>> = None;
     let (mut opened, mut told) = (false, 0);
     for news in news {
