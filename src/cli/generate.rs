@@ -109,7 +109,7 @@ fn moved(arguments: &Generate, out: Option<&Path>, terminal: &Terminal) -> Resul
         extrapolation: Some(outside.motion()).filter(|ratio| ratio.is_finite()),
         force_extrapolation: outside.force().filter(|ratio| ratio.is_finite()),
         extrapolation_ratio: outside.uncertainty.filter(|ratio| ratio.is_finite()),
-        warnings: outside.warnings().into_iter().chain(outside.of_bumps(&skill, arguments.covariance)).collect(),
+        warnings: outside.warnings(),
         columns: std::iter::once("time_s".to_owned()).chain(trajectory.columns().iter().cloned()).collect(),
         rows: if in_json { (0..trajectory.samples()).map(row).collect() } else { Vec::new() },
     };

@@ -30,7 +30,7 @@ pub(super) struct Learn {
     /// Take the motion parameters from the demonstrations themselves, whatever the dataset says
     #[arg(long, value_enum, value_name = "SOURCE")]
     pub theta: Option<Theta>,
-    /// Align the demonstrations in time before learning: a smooth warp for each, ends fixed
+    /// Align the demonstrations in time before learning: a smooth warp for each, ends fixed; not where the parameters then explain less
     #[arg(long)]
     pub align: bool,
     /// Columns that the motion model learns, instead of the dataset's
@@ -119,7 +119,8 @@ pub(super) struct Generate {
     /// Also write the wrench that the force model expects
     #[arg(long)]
     pub expected_wrench: bool,
-    /// Also write std_COLUMN, the standard deviation that the model expects of every motion column
+    /// Also write std_COLUMN, the standard deviation that the model expects of every motion column, with what it does not know for want of
+    /// demonstrations
     #[arg(long)]
     pub covariance: bool,
     /// Fail (exit code 10) when a parameter, or a combination of parameters, lies further outside what was demonstrated than this fraction of its

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::learning::{ExecutionSettings, FeatureMap, LearningError, ParameterSpace, Request, Skill};
+use crate::learning::{ExecutionSettings, LearningError, ParameterSpace, Request, Skill};
 
 /// How far outside parameters are, as fractions of ranges (-).
 #[derive(Clone, Copy)]
@@ -56,13 +56,6 @@ impl Outside {
         let motion = self.motion.told("parameter").map(|told| told + &guessed);
         let force = self.force.and_then(|beyond| beyond.told("parameter of the force"));
         motion.into_iter().chain(force).collect()
-    }
-
-    /// Bumps vanish far from the demonstrations, and what is unknown there does not show in the covariance.
-    pub fn of_bumps(&self, skill: &Skill, covariance: bool) -> Option<String> {
-        let bumps = matches!(skill.motion.parameters.features, FeatureMap::Rbf { .. });
-        (bumps && covariance && self.motion() > 0.0)
-            .then(|| "std_… stands still where the bumps (rbf) have vanished: out there it says nothing about the movement".to_owned())
     }
 }
 

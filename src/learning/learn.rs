@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::alignment::Alignment;
 use super::automatic::{filled_in, force_features, motion_features, seen_force, seen_motion, thetas};
 use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
@@ -46,7 +47,7 @@ pub fn learn_from(dataset: &Dataset, settings: &LearningSettings, seed: u64, fir
 fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: Option<&Skill>) -> Result<Learned, LearningError> {
     settings.check()?;
     dataset.check()?;
-    let aligned = settings.align.then(|| dataset.aligned()).transpose()?;
+    let aligned = settings.align.then(|| Alignment::of(dataset)).transpose()?;
     let (dataset, alignment_shifts_s) = aligned.as_ref().map_or((dataset, Vec::new()), |a| (&a.dataset, a.shifts_s.clone()));
     let prepared = prepare(dataset, settings)?;
     let (settings, [motion_choices, force_choices]) = match first {
@@ -55,6 +56,7 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     };
     let settings = &settings;
     let mut warnings = warnings::about_data(dataset, &prepared, settings);
+    warnings.extend(aligned.as_ref().and_then(|a| a.warning.clone()));
     let (motion, force) =
         rayon::join(|| motion_fit(dataset, &prepared, settings, seed, first), || force_fit(dataset, &prepared, settings, seed, first));
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);

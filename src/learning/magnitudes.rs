@@ -7,14 +7,11 @@ use crate::demonstration::{Dataset, Demonstration, DemonstrationError, Fault};
 const LARGEST: f64 = 1e100;
 /// The smallest change that is learned from (in the column's own unit): its square does not vanish. No change at all is no fault.
 const SMALLEST_CHANGE: f64 = 1e-100;
-/// The shortest demonstration (s): anything shorter has its times in another unit.
-const SHORTEST_S: f64 = 1e-6;
-
 /// Refuses values, parameters and times that arithmetic would turn into infinity or nothing, all of them at once.
-pub(super) fn check(dataset: &Dataset) -> Result<(), LearningError> {
+pub(super) fn check(dataset: &Dataset, rate_hz: f64) -> Result<(), LearningError> {
     let demonstrations = &dataset.demonstrations;
     let mut faults: Vec<Fault> = demonstrations.iter().flat_map(|d| too_large(d, dataset)).collect();
-    faults.extend(demonstrations.iter().filter_map(too_short));
+    faults.extend(demonstrations.iter().filter_map(|d| too_short(d, rate_hz)));
     faults.extend(dataset.motion.iter().chain(&dataset.wrench).filter_map(|name| {
         let of = |d: &Demonstration| d.trajectory.column_index(name).map(|column| range(d.trajectory.values().column(column).iter()));
         too_still(dataset, name, demonstrations.iter().filter_map(of))
@@ -48,12 +45,13 @@ fn too_large(demonstration: &Demonstration, dataset: &Dataset) -> Vec<Fault> {
     faults
 }
 
-/// A demonstration that is over at once.
-fn too_short(demonstration: &Demonstration) -> Option<Fault> {
-    let duration_s = demonstration.trajectory.duration_s();
-    let expected = format!("at least {SHORTEST_S:e} s: are its times in seconds?");
+/// A demonstration that is over within one period of the rate that models learn at (Hz).
+fn too_short(demonstration: &Demonstration, rate_hz: f64) -> Option<Fault> {
+    let (duration_s, period_s) = (demonstration.trajectory.duration_s(), 1.0 / rate_hz);
+    let expected =
+        format!("at least {period_s:.3} s, one period of rate_hz = {rate_hz}: are its times in seconds, is the rate high enough?");
     let fault = Fault { place: demonstration.name.clone(), column: Some("time_s".to_owned()), expected, ..Fault::default() };
-    (duration_s < SHORTEST_S).then(|| Fault { found: format!("a duration of {duration_s:e} s"), ..fault })
+    (duration_s < period_s).then(|| Fault { found: format!("a duration of {duration_s:e} s"), ..fault })
 }
 
 /// A column or parameter that changes, over all demonstrations, by less than can be squared.

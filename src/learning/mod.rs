@@ -9,6 +9,7 @@
 //! Rooms inside: [`dmp`] (the primitive and its baseline), [`phmm`] (the parametric hidden Markov model), [`cpdmp`] (what joins them),
 //! [`tpgmm`] (the rival).
 
+mod alignment;
 mod automatic;
 pub mod cpdmp;
 pub mod dmp;

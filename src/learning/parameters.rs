@@ -33,7 +33,8 @@ impl ParameterSpace {
     pub fn of(names: Vec<String>, thetas: &[DVector<f64>]) -> Self {
         let range = |j: usize| {
             let values = thetas.iter().map(|theta| theta[j]);
-            [values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max)]
+            let (from, to) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+            if to - from <= rounding(from, to) { [from, from] } else { [from, to] }
         };
         let ranges: Vec<[f64; 2]> = (0..names.len()).map(range).collect();
         Self { combinations: combinations(&ranges, thetas), ranges, names, features: FeatureMap::Linear }
@@ -85,8 +86,8 @@ impl ParameterSpace {
     #[must_use]
     pub fn single_extrapolation(&self, theta: &DVector<f64>) -> f64 {
         let alone = self.ranges.iter().zip(theta.iter()).map(|(range, value)| {
-            let distance = outside(*range, *value);
-            if distance == 0.0 { 0.0 } else { distance / (range[1] - range[0]) }
+            let (distance, width) = (outside(*range, *value), range[1] - range[0]);
+            if distance == 0.0 || (width == 0.0 && distance <= rounding(range[0], *value)) { 0.0 } else { distance / width }
         });
         alone.fold(0.0, f64::max)
     }
@@ -106,6 +107,11 @@ impl ParameterSpace {
 
 /// What is rounding along a combination (widths of ranges): digits that a person leaves out.
 const ROUNDING: f64 = 1e-3;
+
+/// The difference of two values of a parameter that is rounding (its unit).
+fn rounding(a: f64, b: f64) -> f64 {
+    CONSTANT * a.abs().max(b.abs())
+}
 
 fn outside([from, to]: [f64; 2], value: f64) -> f64 {
     (from - value).max(value - to).max(0.0)

@@ -51,7 +51,7 @@ pub(super) fn prepare(dataset: &Dataset, settings: &LearningSettings) -> Result<
     if !faults.is_empty() {
         return Err(DemonstrationError::Invalid(faults).into());
     }
-    magnitudes::check(dataset)?;
+    magnitudes::check(dataset, settings.rate_hz)?;
     dataset.demonstrations.iter().map(|d| prepare_one(d, dataset, settings)).collect()
 }
 
@@ -90,7 +90,7 @@ impl Prepared {
 
 fn prepare_one(demonstration: &Demonstration, dataset: &Dataset, settings: &LearningSettings) -> Result<Prepared, LearningError> {
     let trajectory = &demonstration.trajectory;
-    let uniform = trajectory.resampled(1.0 / median_step_s(trajectory))?;
+    let uniform = trajectory.resampled(1.0 / step_s(trajectory))?;
     let forcing = forcing_targets(&demonstration.name, &uniform, dataset, settings)?;
     let learned = trajectory.resampled(settings.rate_hz)?;
     let last = (learned.samples() - 1) as f64;
@@ -166,10 +166,15 @@ fn stands_still(values: &[f64]) -> bool {
     most - least <= ROUNDING * least.abs().max(most.abs())
 }
 
-fn median_step_s(trajectory: &Trajectory) -> f64 {
+/// How many times as many samples as were recorded a movement is differentiated at, at most (-).
+const DENSEST: f64 = 10.0;
+
+/// The time between samples at which a movement is differentiated (s): the median of those recorded. Where samples come in bursts, that is the
+/// time inside a burst, and counts for no less than a part of the mean.
+fn step_s(trajectory: &Trajectory) -> f64 {
     let mut steps: Vec<f64> = trajectory.times_s().windows(2).map(|t| t[1] - t[0]).collect();
     steps.sort_by(f64::total_cmp);
-    steps[steps.len() / 2]
+    steps[steps.len() / 2].max(trajectory.duration_s() / steps.len() as f64 / DENSEST)
 }
 
 /// The same rows over the same time, `samples` of them, linear in between.

@@ -49,7 +49,8 @@ pub struct LearningSettings {
     pub compliance: ComplianceSettings,
     /// Basis functions of the orientation over the time fraction (2 to 500). Default 40.
     pub orientation_basis: usize,
-    /// Whether demonstrations are brought to one timing before they are learned from, by one warp each for all columns. Default no.
+    /// Whether demonstrations are brought to one timing before they are learned from, by one warp each for all columns. Where the
+    /// parameters would then predict places that are left out no better, each keeps its own timing, with a warning. Default no.
     pub align: bool,
     /// What of the motion model is chosen from the data. Default nothing: `motion` says it.
     pub motion_selection: Selection,

@@ -8,7 +8,7 @@ use super::learn::lwr_basis;
 use super::parameters::mean_and_deviations;
 use super::phmm::{Fit, FitStatus};
 use super::prepare::Prepared;
-use super::{LearningSettings, ShapingKind};
+use super::{Features, LearningSettings, ShapingKind};
 use crate::demonstration::{Dataset, ParameterSource};
 use crate::math::{LeastSquares, solve_normal_equations};
 
@@ -26,6 +26,14 @@ pub(super) fn about_data(dataset: &Dataset, prepared: &[Prepared], settings: &Le
     if lwr && told && dataset.parameter_source != ParameterSource::Given {
         let source = dataset.parameter_source.word();
         warnings.push(format!("lwr_ends has no effect with theta = \"{source}\": the ends follow from the parameters"));
+    }
+    for (key, features, parameters) in [
+        ("motion.features", settings.motion.features, dataset.parameters_m()),
+        ("force.features", settings.force.features, dataset.parameters_f()),
+    ] {
+        if !lwr && features != Features::Linear && parameters.is_empty() && (key == "motion.features" || !dataset.wrench.is_empty()) {
+            warnings.push(format!("{key} has no effect: the demonstrations have no parameters for it"));
+        }
     }
     let basis = lwr_basis(prepared, settings);
     if lwr && basis < settings.lwr_basis {

@@ -14,7 +14,7 @@ pub struct ChoiceSection {
     pub setting: &'static str,
     /// What was chosen.
     pub chosen: f64,
-    /// Every candidate.
+    /// Every candidate; none when the demonstrations leave nothing to choose by.
     pub curve: Vec<Candidate>,
 }
 
@@ -52,6 +52,10 @@ impl ChoiceSection {
 
     /// The choice as a line of text.
     pub fn line(&self) -> String {
+        if self.curve.is_empty() {
+            let why = "nothing to choose by: it takes three different parameter values";
+            return format!("  chosen       {} = {} ({why})", self.setting, figure(self.chosen));
+        }
         let score = |one: &Candidate| one.score.map_or("-".to_owned(), figure);
         let curve: Vec<String> = self.curve.iter().map(|one| format!("{}: {}", figure(one.value), score(one))).collect();
         format!("  chosen       {} = {} (score, less is better: {})", self.setting, figure(self.chosen), curve.join(", "))

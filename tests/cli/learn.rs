@@ -400,3 +400,46 @@ fn repetitions_told_apart_by_time_are_chosen_by_number_and_an_end_is_given_once(
     let said = folder.call(&[&["generate", "s.json"], &theta[..], &["--start", "x_m=0.2"]].concat());
     assert!(said.code == Some(2) && said.stderr.contains("give one of the two"), "{}", said.stderr);
 }
+
+#[test]
+fn what_the_demonstrations_cannot_say_is_told() {
+    let two = Folder::with(&[("strokes.csv", strokes_csv(2).as_bytes())]);
+    let said = two.call(&["learn", "strokes.csv", "--states", "auto", "--cross-validate"]);
+    assert_eq!(said.code, Some(4), "{}", said.stderr);
+    assert!(said.stderr.contains("leaving one out, of two, leaves one to choose the number of states by"), "{}", said.stderr);
+    let said = learn(&two, &["--ridge", "auto"]);
+    assert!(said.code == Some(0) && said.stdout.contains("motion.ridge = 0.1 (nothing to choose by"), "{}{}", said.stdout, said.stderr);
+    let said = learn(&strokes(), &["--features", "rbf"]);
+    assert!(said.code == Some(0) && said.stdout.contains("motion.features has no effect"), "{}{}", said.stdout, said.stderr);
+}
+
+#[test]
+fn times_in_another_unit_and_samples_in_bursts_are_told_or_borne() {
+    let line = |time: f64, u: f64| format!("{time:e},{},{}\n", u * u * (3.0 - 2.0 * u), (3.0 * u).sin());
+    let csv = |time: fn(usize) -> f64| (0..200).map(|i| line(time(i), i as f64 / 199.0)).collect::<String>();
+    let learned = |rows: String| learn(&Folder::with(&[("strokes.csv", format!("time_s,x_m,y_m\n{rows}").as_bytes())]), &[]);
+    let said = learned(csv(|i| 1e-7 * i as f64));
+    assert_eq!(said.code, Some(3), "{}", said.stderr);
+    assert!(said.stderr.contains("one period of rate_hz = 25: are its times in seconds"), "{}", said.stderr);
+    // Twenty samples within 2 microseconds, every 0.2 s.
+    let said = learned(csv(|i| 0.2 * (i / 20) as f64 + 1e-7 * (i % 20) as f64));
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+}
+
+/// Contract: rounding in a parameter is no range of it.
+#[test]
+fn a_parameter_that_differs_by_rounding_never_varied() {
+    let rows = |size: f64| (0..100).map(|i| format!("{},{}\n", 0.02 * f64::from(i), size * f64::from(i) / 99.0)).collect::<String>();
+    let mut list = "schema_version = 1\nmotion = [\"x_m\"]\n".to_owned();
+    let mut files = Vec::new();
+    for (k, height) in ["0.3", "0.30000000000000004", "0.3"].iter().enumerate() {
+        files.push((format!("{k}.csv"), format!("time_s,x_m\n{}", rows(1.0 + k as f64))));
+        list += &format!("[[demonstration]]\nfile = \"{k}.csv\"\ntheta_m = {{ height_m = {height}, size_m = {k} }}\n");
+    }
+    files.push(("dataset.toml".to_owned(), list));
+    let folder = Folder::with(&files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect::<Vec<_>>());
+    assert_eq!(folder.call(&[&["learn", "."], &QUICK[..], &["--out", "s.json"]].concat()).code, Some(0));
+    let asked = |height: &str| folder.call(&["generate", "s.json", "--theta", height, "--theta", "size_m=1", "--out", "a.csv"]).stderr;
+    assert!(!asked("height_m=0.30000000000000001").contains("warning"), "{}", asked("height_m=0.3"));
+    assert!(asked("height_m=0.35").contains("where it never varied"), "{}", asked("height_m=0.35"));
+}

@@ -80,7 +80,7 @@ fn a_byte_order_mark_windows_line_ends_and_spaces_are_no_trouble() {
 #[test]
 fn too_little_data_is_an_error_and_odd_data_a_warning() {
     let mut dataset = PickAndPlace { duration_s: 4.0, ..Default::default() }.dataset(0);
-    let few = LearningSettings { rate_hz: 0.2, ..Default::default() };
+    let few = LearningSettings { rate_hz: 0.5, ..Default::default() };
     let mut short = dataset.clone();
     short.demonstrations.truncate(1);
     assert!(matches!(learn(&short, &few, 0), Err(LearningError::Data(message)) if message.contains("16 states")));

@@ -338,6 +338,12 @@ fn a_skill_knows_less_the_farther_it_is_asked_and_its_file_says_the_same() {
         assert!(outside.epistemic.trace() > 2.0 * inside.epistemic.trace());
         assert!(inside.covariance().symmetric_eigenvalues().min() > 0.0);
         assert!(inside.epistemic.trace() < 0.6 * inside.aleatoric.trace());
+        // Far away what is not known grows with the distance at least, whatever becomes of the features.
+        let away = |ranges: f64| back.predictive(&height(0.17 + 0.09 * ranges), 0.2).unwrap().unwrap().epistemic.trace().sqrt();
+        assert!(away(40.0) > 1.9 * away(20.0), "{features:?}: {} after {}", away(40.0), away(20.0));
+        let asked = |ranges: f64| back.deviation(&DVector::from_element(1, 0.17 + 0.09 * ranges), &[0.2]).unwrap()[(0, 0)];
+        let expected = back.predictive(&height(0.17 + 0.09 * 20.0), 0.2).unwrap().unwrap().covariance()[(0, 0)].sqrt();
+        assert!((asked(20.0) - expected).abs() < 1e-12 * expected);
     }
 }
 

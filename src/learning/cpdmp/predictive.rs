@@ -7,15 +7,22 @@
 //! ratio        = mean over u of sum_i h_i(u) r_i(theta)
 //! ```
 //!
+//! Bumps (rbf) vanish away from the demonstrations, and the posterior of their weights with them. What is not known there is taken to grow
+//! as for a straight line through demonstrations spread evenly over their range: by `12 e^2 / m_i`, with the extrapolation `e` in widths of
+//! the range and the number `m_i` of demonstrations behind a state.
+//!
 //! `Sigma_i (1 + r_i)` is the predictive covariance of one state; both parts weigh the states as the regression does.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::{MotionModel, Shaping};
-use crate::learning::{Gmr, LearningError};
+use crate::learning::{FeatureMap, Gmr, LearningError};
 
 /// Points of the movement that the ratio is averaged over.
 const POINTS: usize = 101;
+
+/// Extrapolation from which on it counts no further, so that a parameter that never varied stays finite (-).
+const FARTHEST: f64 = 1e6;
 
 /// The forcing term at one parameter and one time fraction.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,21 +50,23 @@ impl MotionModel {
     /// # Errors
     /// When the model's covariances are not positive definite.
     pub fn predictive(&self, theta: &DVector<f64>, fraction: f64) -> Result<Option<Predictive>, LearningError> {
+        Ok(self.predictives(theta, &[fraction])?.and_then(|mut all| all.pop()))
+    }
+
+    /// The same at several time fractions (T), in their order.
+    ///
+    /// # Errors
+    /// As [`Self::predictive`].
+    pub fn predictives(&self, theta: &DVector<f64>, fractions: &[f64]) -> Result<Option<Vec<Predictive>>, LearningError> {
         let Some((gmr, ratios)) = self.regression_and_ratios(theta)? else { return Ok(None) };
-        let x = [self.phase_input.at(fraction.clamp(0.0, 1.0), self.alpha)];
-        let mut weights = vec![0.0; gmr.components()];
-        gmr.weights(&x, &mut weights);
-        let mut epistemic = DMatrix::zeros(gmr.outputs(), gmr.outputs());
-        for (i, (h, r)) in weights.iter().zip(&ratios).enumerate() {
-            epistemic += gmr.conditional_covariance(i) * (h * r);
-        }
-        Ok(Some(Predictive { mean: gmr.mean(&x), aleatoric: gmr.covariance(&x), epistemic }))
+        let at = |fraction: &f64| predictive(&gmr, &ratios, self.phase_input.at(fraction.clamp(0.0, 1.0), self.alpha));
+        Ok(Some(fractions.iter().map(at).collect()))
     }
 
     /// The extrapolation ratio at `theta` (p): variance of the mean for want of demonstrations over the variance demonstrations show,
     /// averaged over the movement (-). About `(1 + q) / K` inside `K` demonstrations with `q` features; it grows with the square of the
-    /// distance outside for linear features, and does not depend on the unit of any parameter. Above 1 the movement is more guessed
-    /// than learned. Bumps vanish far away, and the ratio then stands still at its highest. `None` as for [`Self::predictive`].
+    /// distance outside for linear features and bumps, and does not depend on the unit of any parameter. Above 1 the movement is more
+    /// guessed than learned. `None` as for [`Self::predictive`].
     ///
     /// # Errors
     /// When the model's covariances are not positive definite.
@@ -79,7 +88,28 @@ impl MotionModel {
         }
         let phi = self.parameters.features.at(theta);
         let means: Vec<DVector<f64>> = (0..phmm.states()).map(|i| phmm.mean_at(i, &phi)).collect();
-        let ratios = self.evidence.iter().map(|e| e.ratio(&phi)).collect();
+        let beyond = self.beyond_the_bumps(theta);
+        let ratios = self.evidence.iter().map(|e| e.ratio(&phi) + beyond / e.demonstrations).collect();
         Ok(Some((Gmr::new(&means, &phmm.covariances, 1)?, ratios)))
     }
+
+    /// `12 e^2` where the features are bumps (-): 12 is the square of a range over the variance of values spread evenly over it.
+    fn beyond_the_bumps(&self, theta: &DVector<f64>) -> f64 {
+        match self.parameters.features {
+            FeatureMap::Rbf { .. } => 12.0 * self.parameters.extrapolation(theta).min(FARTHEST).powi(2),
+            FeatureMap::Linear | FeatureMap::Quadratic(_) => 0.0,
+        }
+    }
+}
+
+/// What is expected at a phase input, from the regression and every state's `r_i`.
+fn predictive(gmr: &Gmr, ratios: &[f64], input: f64) -> Predictive {
+    let x = [input];
+    let mut weights = vec![0.0; gmr.components()];
+    gmr.weights(&x, &mut weights);
+    let mut epistemic = DMatrix::zeros(gmr.outputs(), gmr.outputs());
+    for (i, (h, r)) in weights.iter().zip(ratios).enumerate() {
+        epistemic += gmr.conditional_covariance(i) * (h * r);
+    }
+    Predictive { mean: gmr.mean(&x), aleatoric: gmr.covariance(&x), epistemic }
 }

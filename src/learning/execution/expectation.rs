@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::learning::{Gmr, LearningError, Skill};
+use crate::learning::cpdmp::Predictive;
+use crate::learning::{LearningError, Skill};
 
 impl Skill {
     /// The wrench `F_des(theta_f, s)` at time fractions `u` (T; clamped to [0, 1]): T x w, in the order of the force model's columns.
@@ -19,22 +20,19 @@ impl Skill {
     }
 
     /// Standard deviation of every motion column (unit of the column) at time fractions `u` (T; clamped to [0, 1]), for parameters `theta`
-    /// (p): T x d. It is that of the forcing term (15), which moves the spring's equilibrium one to one: the spread of slow deviations.
+    /// (p): T x d. It is that of the forcing term (15), which moves the spring's equilibrium one to one: the spread of slow deviations that
+    /// demonstrations show, and what is not known for want of demonstrations, which grows outside of what they cover.
     ///
     /// # Errors
-    /// When the skill is the baseline, which has no covariance.
+    /// When the skill is the baseline, which has no covariance, or does not hold the evidence it was learned from.
     pub fn deviation(&self, theta: &DVector<f64>, u: &[f64]) -> Result<DMatrix<f64>, LearningError> {
-        let shaping = self.motion.shaping_at(theta)?;
-        let Some((gmr, input)) = shaping.mixture() else {
-            return Err(LearningError::Request("the skill is the baseline, which has no covariance".to_owned()));
+        let Some(expected) = self.motion.predictives(theta, u)? else {
+            let why = "no covariance is known: the skill is the baseline, or does not hold the evidence it was learned from";
+            return Err(LearningError::Request(why.to_owned()));
         };
-        let at = |u: &f64| deviations(gmr, input.at(u.clamp(0.0, 1.0), self.motion.alpha));
-        Ok(rows(self.motion.columns.len(), u.iter().map(at)))
+        let deviations = |at: &Predictive| at.covariance().diagonal().map(|variance| variance.max(0.0).sqrt());
+        Ok(rows(self.motion.columns.len(), expected.iter().map(deviations)))
     }
-}
-
-fn deviations(gmr: &Gmr, input: f64) -> DVector<f64> {
-    gmr.covariance(&[input]).diagonal().map(|variance| variance.max(0.0).sqrt())
 }
 
 fn rows(columns: usize, rows: impl ExactSizeIterator<Item = DVector<f64>>) -> DMatrix<f64> {

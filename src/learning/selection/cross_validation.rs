@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::super::{ExecutionSettings, LearningError, LearningSettings, ShapingKind, Skill, learn};
-use super::MovementError;
 use super::folds::{folds_of, split};
 use super::reproduction::{Reproduction, reproduction, with_ends, with_parameters};
+use super::{MovementError, Selection, StatesCriterion};
 use crate::demonstration::{Dataset, Demonstration};
 
 /// One demonstration, predicted by a skill that was learned without it and without all others of the same parameters.
@@ -75,6 +75,11 @@ impl CrossValidation {
 pub fn cross_validate(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Result<CrossValidation, LearningError> {
     dataset.check()?;
     let groups = folds_of(dataset)?;
+    let chosen = |selection: Selection| selection.states.is_some_and(|search| search.criterion == StatesCriterion::CrossValidation);
+    if groups.len() < 3 && (chosen(settings.motion_selection) || chosen(settings.force_selection)) {
+        let why = "leaving one out, of two, leaves one to choose the number of states by, and that needs two: show more or set the states";
+        return Err(LearningError::Data(why.to_owned()));
+    }
     let training = reproduction(dataset, &learn(dataset, settings, seed)?.skill)?;
     let parts = groups.par_iter().enumerate().map(|(fold, group)| {
         let (rest, left_out) = split(dataset, group);
