@@ -59,6 +59,12 @@ impl Chapters<'_> {
         teaching_figure::log_lessons(&self.recorder(&[]), self.experiment, robot, lessons)
     }
 
+    /// How number `number` of them was taught; `begun` tells whether others have been told.
+    pub fn lesson(&self, robot: &RobotModel, (number, lesson): (usize, &LessonRecord), begun: bool) -> Result<(), Fault> {
+        let recorder = if begun { self.recorder(&[]).continues() } else { self.recorder(&[]) };
+        teaching_figure::log_from(&recorder, self.experiment, robot, (number, std::slice::from_ref(lesson)))
+    }
+
     /// What is known before the execution: demonstrations, their replays, skill and plan.
     pub fn skill(&self, outcome: &RunOutcome) -> Result<(), Fault> {
         let recorder = self.recorder(&[]);
