@@ -23,7 +23,7 @@ pub use error::BatchError;
 pub use execute::{Pace, Runner, execute};
 pub use folder::SweepFolder;
 pub use merge::merge;
-pub use plan::{NotReady, Plan};
+pub use plan::{NotReady, Plan, Terms};
 pub use row::{CriterionCell, Row};
 pub use shard::Shard;
 pub use summary::{CriterionSummary, FirstFailure, Summary};

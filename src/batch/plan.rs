@@ -29,9 +29,18 @@ pub struct Plan {
     pub keys: Vec<(String, CellKind)>,
     /// Names of the scenario's criteria.
     pub criteria: Vec<String>,
-    /// Which sweep it is: over the program's version, the time limit, every member's resolved scenario and the files that decide them, in
+    /// Which sweep it is: over the program's version, the terms, every member's resolved scenario and the files that decide them, in
     /// hexadecimal.
     pub hash: String,
+}
+
+/// What is asked of every run besides its scenario.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Terms {
+    /// How long it may take.
+    pub limit: Option<Duration>,
+    /// Whether one that warns of something is one that is not as expected.
+    pub deny_warnings: bool,
 }
 
 /// Why a sweep cannot be run.
@@ -61,15 +70,12 @@ enum Fault {
 }
 
 impl Plan {
-    /// Checks every member of `sweep`, each of which may take `limit`, on all threads; `ready` looks at what is beyond the scenario's text, and says what is wrong with it.
+    /// Checks every member of `sweep`, each of which is run under `terms`, on all threads; `ready` looks at what is beyond the scenario's text,
+    /// and says what is wrong with it.
     ///
     /// # Errors
     /// What is wrong with which members.
-    pub fn check(
-        sweep: Sweep,
-        limit: Option<Duration>,
-        ready: &(dyn Fn(&Scenario) -> Result<(), String> + Sync),
-    ) -> Result<Self, Box<NotReady>> {
+    pub fn check(sweep: Sweep, terms: &Terms, ready: &(dyn Fn(&Scenario) -> Result<(), String> + Sync)) -> Result<Self, Box<NotReady>> {
         let members = sweep.members();
         let mut sum = Sum { not_ready: NotReady { faulty: 0, invalid: Vec::new(), refused: Vec::new() }, ..Sum::default() };
         for start in (0..members).step_by(CHUNK as usize) {
@@ -84,7 +90,7 @@ impl Plan {
         }
         let keys = sweep.keys().into_iter().map(str::to_owned);
         let keys = keys.zip(&sum.kinds).map(|(key, kind)| (key, kind.unwrap_or(CellKind::Text))).collect();
-        let hash = sum.hash(limit);
+        let hash = sum.hash(terms);
         Ok(Self { sweep, scenario: sum.name, members, keys, criteria: sum.criteria, hash })
     }
 
@@ -173,11 +179,12 @@ impl Sum {
     }
 
     /// Which sweep it is.
-    fn hash(&self, limit: Option<Duration>) -> String {
+    fn hash(&self, terms: &Terms) -> String {
         let files: Vec<String> = self.inputs.iter().map(|path| format!("{:?}", hash_file(path).xxh3_64)).collect();
         let members = std::hash::Hasher::finish(&self.members);
-        let limit = limit.map_or_else(String::new, |limit| format!(" within {limit:?}"));
-        let all = format!("{} {members:016x} {}{limit}", env!("CARGO_PKG_VERSION"), files.join(" "));
+        let limit = terms.limit.map_or_else(String::new, |limit| format!(" within {limit:?}"));
+        let warnings = if terms.deny_warnings { " without warnings" } else { "" };
+        let all = format!("{} {members:016x} {}{limit}{warnings}", env!("CARGO_PKG_VERSION"), files.join(" "));
         format!("{:016x}", XxHash3_64::oneshot(all.as_bytes()))
     }
 }

@@ -242,7 +242,7 @@ pub(super) struct Global {
     #[arg(long, global = true, env = "CPDMP_LENIENT")]
     pub lenient: bool,
     /// Refuse a scenario or robot that would be warned of (exit code 3), and let a run that warns of something be one that is not as
-    /// expected (10): for run, check and validate
+    /// expected (10): for run, check, validate and sweep
     #[arg(long, global = true, env = "CPDMP_DENY_WARNINGS", conflicts_with = "lenient")]
     pub deny_warnings: bool,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::args::{Global, Phase, Replay};
 use super::files::SNAPSHOTS;
+use super::recorded_run::RecordedManifest;
 use crate::scenario::{Scenario, Work, spelled};
 use crate::simulation::{Snapshot, Snapshots};
 
@@ -81,7 +82,8 @@ pub(super) fn ineffective(arguments: &Replay, global: &Global) -> Vec<String> {
     let mut faults: Vec<String> = global.set.iter().filter_map(told).collect();
     let from = if in_the_middle { "--from-time".to_owned() } else { format!("--from {phase}") };
     let taken_up = in_the_middle || arguments.from.is_some();
-    if taken_up && global.seed.is_some() {
+    let of_run = || RecordedManifest::read(&arguments.folder).ok().and_then(|manifest| manifest.seed());
+    if taken_up && global.seed.is_some_and(|seed| of_run() != Some(seed)) {
         faults.push(format!("--seed decides the teaching too, which {from} takes from the folder: leave one of the two out"));
     }
     if in_the_middle && global.robot.is_some() {

@@ -11,7 +11,6 @@ use super::check_target::{Target, targets};
 use super::judged_run::judged_run;
 use super::load::options;
 use super::progress::Clock;
-use super::recorded_run::is_changed;
 use super::terminal::Terminal;
 use crate::report::{CheckReport, Checked, InputFault, Outcome, Replaceable, check_text, github, junit, prepare_file, replace_file};
 use crate::scenario::{Diagnostic, LoadOptions, Scenario, Severity};
@@ -34,7 +33,7 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     let checks = targets.par_iter().map(|target| {
         let checked = match target {
             Target::Scenario(path) => simulated(path, &options, global, terminal),
-            Target::Run(run) => judged_again(run, is_changed(global), &options, terminal),
+            Target::Run(run) => judged_again(run, &options, terminal),
             Target::Trajectory(path, scene) => judged_trajectory(path, scene, &options, terminal),
         };
         terminal.note(&format!("{}: {} ({:.1} s)\n", checked.path, checked.outcome.name().replace('_', " "), checked.wall_s));

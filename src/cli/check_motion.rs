@@ -43,6 +43,9 @@ pub(super) fn judged(
     match report(&scenario) {
         Ok(mut report) => {
             report.locate(|key| scenario.places.get(key).cloned());
+            if options.deny_warnings {
+                report.deny_warnings();
+            }
             Checked::judged(name, kind, report, faults(&scenario.warnings), clock.elapsed_s())
         }
         Err(faults) => Checked::refused(name, kind, faults, clock.elapsed_s()),

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use super::changed_scene::untold;
 use super::check_motion::{judged, movement, whole_file};
-use super::recorded_run::RecordedManifest;
+use super::recorded_run::{RecordedManifest, SCENARIO, as_recorded, is_changed};
 use super::terminal::Terminal;
 use crate::check::{Criterion, not_judged};
 use crate::report::{Checked, InputFault, Outcome, RecordedReport, RunReport};
@@ -15,18 +16,25 @@ const KIND: &str = "run";
 /// The log of a run, whose movement is judged.
 const STEP_LOG: &str = "steps.parquet";
 
-/// Judges the run in `folder` again; `changed` says whether the options make its scenario another one.
-pub(super) fn judged_again(folder: &Path, changed: bool, options: &LoadOptions, terminal: &Terminal) -> Checked {
-    let options = match RecordedManifest::read(folder) {
-        Ok(manifest) => manifest.may_use(options),
-        Err(message) => {
-            let fault = whole_file(&folder.join("manifest.json"), "unreadable", message);
-            return Checked::refused(folder.display().to_string(), KIND, vec![fault], 0.0);
-        }
+/// Judges the run in `folder` again.
+pub(super) fn judged_again(folder: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
+    let path = folder.join(SCENARIO);
+    let refused = |fault| Checked::refused(folder.display().to_string(), KIND, vec![fault], 0.0);
+    let manifest = match RecordedManifest::read(folder) {
+        Ok(manifest) => manifest,
+        Err(message) => return refused(whole_file(&folder.join("manifest.json"), "unreadable", message)),
     };
-    judged(folder, KIND, &folder.join("scenario.toml"), &options, terminal, |scenario| {
+    if let Some(message) = manifest.edited(folder) {
+        return refused(whole_file(&path, "edited", message));
+    }
+    let options = manifest.may_use(options);
+    judged(folder, KIND, &path, &options, terminal, |scenario| {
+        let recorded = as_recorded(&path, &options);
+        if let Some(fault) = recorded.as_ref().and_then(|recorded| untold(&path, recorded, scenario, &options)) {
+            return Err(vec![fault]);
+        }
         let record = RecordedReport::read(folder).map_err(|fault| vec![fault])?;
-        Ok(again(scenario, &record, folder)?.with_record(&record, changed))
+        Ok(again(scenario, &record, folder)?.with_record(&record, is_changed(recorded.as_ref(), scenario)))
     })
 }
 

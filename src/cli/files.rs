@@ -6,7 +6,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use super::judged_run::{JudgedRun, Left};
 use super::{figure_files, planar_files};
 use crate::recording;
-use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_file, write_file};
+use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_bytes, hash_file, write_file};
 use crate::scenario::{RecordingPlan, Scenario, Work};
 use crate::simulation::{Experiment, RunOutcome};
 
@@ -89,6 +89,7 @@ fn manifest(run: &JudgedRun, scenario: &Scenario, started: SystemTime) -> Manife
         command: std::env::args().collect(),
         directory: std::env::current_dir().ok(),
         started_unix_s: started.duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs()),
+        scenario_xxh3_64: Some(hash_bytes(scenario.resolved.as_bytes())),
         inputs: scenario.files.iter().chain(&scenario.work.inputs()).map(|path| hash_file(path)).collect(),
         ..Manifest::new(&run.report)
     }

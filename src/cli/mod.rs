@@ -6,6 +6,7 @@
 mod args;
 mod beginning;
 mod beside;
+mod changed_scene;
 mod check;
 mod check_motion;
 mod check_run;

@@ -4,13 +4,15 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::args::Global;
 use super::beginning::Beginning;
 use super::files::STATE_LOG;
 use crate::recording::read_state_log;
 use crate::report::{Host, hash_file};
-use crate::scenario::LoadOptions;
+use crate::scenario::{LoadOptions, Scenario};
 use crate::simulation::WorldTrace;
+
+/// The scenario of a run, in its folder.
+pub(super) const SCENARIO: &str = "scenario.toml";
 
 /// The manifest of a run.
 #[derive(Clone)]
@@ -39,6 +41,20 @@ impl RecordedManifest {
         Ok(Self(manifest))
     }
 
+    /// Its seed.
+    pub fn seed(&self) -> Option<u64> {
+        self.0["seed"].as_u64()
+    }
+
+    /// Why the scenario in the folder is not the one that was run, if it is not. A run that was made before hashes were kept has none.
+    pub fn edited(&self, folder: &Path) -> Option<String> {
+        let (path, ran) = (folder.join(SCENARIO), self.0["scenario_xxh3_64"].as_str()?);
+        let is_other = hash_file(&path).xxh3_64.is_some_and(|found| found != ran);
+        let help = "restore the file, give other values with --set KEY=VALUE, or run it as it is now";
+        let again = || format!("cpdmp run {} --out ANOTHER_FOLDER", path.display());
+        is_other.then(|| format!("this is not the scenario that was run, it has been edited since: {help}: `{}`", again()))
+    }
+
     /// The files that decided the run, as they are found from here, with the hash that each had.
     fn inputs(&self) -> Vec<(PathBuf, Option<&str>)> {
         let directory = Path::new(self.0["directory"].as_str().unwrap_or_default());
@@ -60,6 +76,9 @@ impl Recorded {
     /// Reads the folder, or says why it holds no run that can be compared with.
     pub fn read(folder: &Path) -> Result<Self, String> {
         let manifest = RecordedManifest::read(folder)?;
+        if let Some(edited) = manifest.edited(folder) {
+            return Err(format!("{}: {edited}", folder.join(SCENARIO).display()));
+        }
         let Some(state_hash) = manifest.0["state_hash"].as_str().map(str::to_owned) else {
             return Err(format!("{} holds a run that did not come to its end: there is nothing to compare with", folder.display()));
         };
@@ -93,10 +112,10 @@ impl Recorded {
         self.manifest.may_use(options)
     }
 
-    /// Why bits may differ, as far as the folder tells.
-    pub fn reasons(&self, global: &Global) -> Vec<String> {
+    /// Why bits may differ, as far as the folder tells; `changed` says whether flags make another run of it.
+    pub fn reasons(&self, changed: bool) -> Vec<String> {
         let mut reasons = Vec::new();
-        if is_changed(global) {
+        if changed {
             reasons.push("flags make it another run than the recorded one".to_owned());
         }
         // The scenario's own files do not matter: what they said is in the folder's scenario.toml.
@@ -117,9 +136,14 @@ impl Recorded {
     }
 }
 
-/// Whether flags make the repetition another run.
-pub(super) fn is_changed(global: &Global) -> bool {
-    !global.set.is_empty() || global.seed.is_some() || global.robot.is_some()
+/// The scenario in the folder of a run, `path`, without what flags change in it; nothing when it cannot be used without them.
+pub(super) fn as_recorded(path: &Path, options: &LoadOptions) -> Option<Scenario> {
+    Scenario::load(path, &options.without_overrides()).ok()
+}
+
+/// Whether `asked` is another scenario than the one that was run. A flag that says what the run was told anyway changes nothing.
+pub(super) fn is_changed(recorded: Option<&Scenario>, asked: &Scenario) -> bool {
+    recorded.is_none_or(|recorded| recorded.resolved != asked.resolved)
 }
 
 /// The last hash of the last world.

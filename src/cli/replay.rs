@@ -5,13 +5,13 @@ use super::beginning::{Beginning, ineffective};
 use super::failure::Failure;
 use super::load::options;
 use super::progress::Shown;
-use super::recorded_run::{Recorded, is_changed};
+use super::recorded_run::{Recorded, SCENARIO, as_recorded, is_changed};
 use super::repetition::{Repeated, Repetition};
 use super::replay_report::ReplayReport;
 use super::terminal::Terminal;
 use crate::check::{DifferenceKind, ReplayDifference, exact_difference, first_difference};
 use crate::report::Outcome;
-use crate::scenario::{InvalidScenario, LoadOptions, Scenario, Work};
+use crate::scenario::{InvalidScenario, Scenario, Work};
 use crate::simulation::{Experiment, TraceDetail, WorldTrace};
 
 /// Runs a run again, or the rest of it from a phase on, and compares every state hash that it left.
@@ -26,15 +26,16 @@ pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -
         Ok(recorded) => recorded,
         Err(text) => return stop(Outcome::InvalidInput, &text),
     };
-    let path = folder.join("scenario.toml");
-    let load = |options: &LoadOptions| Scenario::load(&path, &recorded.may_use(options));
-    let scenario = match load(&options(global)) {
+    let (path, options) = (folder.join(SCENARIO), recorded.may_use(&options(global)));
+    let scenario = match Scenario::load(&path, &options) {
         Ok(scenario) => scenario,
         Err(InvalidScenario(diagnostics)) => {
             let text = format!("{} cannot be run again", folder.display());
             return Failure::new(Outcome::InvalidInput, [text]).because(diagnostics).tell(terminal);
         }
     };
+    let original = as_recorded(&path, &options);
+    let changed = is_changed(original.as_ref(), &scenario);
     let begun = Beginning::of(arguments, &scenario);
     let (begin, compared) = match begun.and_then(|begin| recorded.from(begin.as_ref()).map(|part| (begin, part))) {
         Ok(both) => both,
@@ -50,13 +51,11 @@ pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -
         }
     };
     let mut difference = first_difference(&compared.traces, &repeated.traces);
-    if let (Some(found), true) = (&mut difference, is_changed(global))
-        && let Ok(as_recorded) = load(&LoadOptions::default())
-    {
-        look_closer(found, &compared, &as_recorded, &scenario, &repetition);
+    if let (Some(found), true, Some(original)) = (&mut difference, changed, &original) {
+        look_closer(found, &compared, original, &scenario, &repetition);
     }
     drop(progress);
-    let report = report_of((arguments, begin.as_ref()), &compared, &repeated, difference.as_ref(), global);
+    let report = report_of((arguments, begin.as_ref()), &compared, &repeated, difference.as_ref(), changed);
     match terminal.format {
         Format::Human => terminal.result(&report.text()),
         Format::Json => terminal.json(&report),
@@ -97,7 +96,7 @@ fn report_of(
     recorded: &Recorded,
     repeated: &Repeated,
     parting: Option<&ReplayDifference>,
-    global: &Global,
+    changed: bool,
 ) -> ReplayReport {
     let same = recorded.state_hash == repeated.state_hash && parting.is_none();
     let outcome = if same { Outcome::Passed } else { Outcome::ReplayDiffers };
@@ -118,7 +117,7 @@ fn report_of(
         step: None,
         body: None,
         quantity: None,
-        reasons: if same { Vec::new() } else { recorded.reasons(global) },
+        reasons: if same { Vec::new() } else { recorded.reasons(changed) },
     };
     parting.into_iter().fold(report, ReplayReport::parting)
 }

@@ -13,8 +13,8 @@ use super::sweep_report::SweepReport;
 use super::sweep_text;
 use super::terminal::Terminal;
 use super::validate::beyond_the_file;
-use crate::batch::{BatchError, NotReady, Plan, Row, Runner, Shard, Summary, SweepFolder, execute};
-use crate::report::Outcome;
+use crate::batch::{BatchError, NotReady, Plan, Row, Runner, Shard, Summary, SweepFolder, Terms, execute};
+use crate::report::{Outcome, RunReport};
 use crate::scenario::{Member, Scenario, Sweep, SweepOptions};
 
 /// Checks every member, then runs those that have no row yet. The worst outcome counts.
@@ -62,8 +62,13 @@ fn checked(arguments: &SweepArguments, global: &Global, terminal: &Terminal) -> 
         }
         many => {
             terminal.note(&format!("checking {many} members of {path}\n"));
-            let ready = |scenario: &Scenario| beyond_the_file(scenario).map(|_| ()).map_err(|(_, reason)| reason);
-            Plan::check(sweep, global.timeout, &ready).map_err(|not_ready| tell_not_ready(&arguments.path, &not_ready, terminal))
+            let ready = |scenario: &Scenario| match beyond_the_file(scenario) {
+                Err((_, reason)) => Err(reason),
+                Ok(warnings) if global.deny_warnings && !warnings.is_empty() => Err(format!("--deny-warnings: {}", warnings.join("\n"))),
+                Ok(_) => Ok(()),
+            };
+            let terms = Terms { limit: global.timeout, deny_warnings: global.deny_warnings };
+            Plan::check(sweep, &terms, &ready).map_err(|not_ready| tell_not_ready(&arguments.path, &not_ready, terminal))
         }
     }
 }
@@ -75,10 +80,8 @@ fn run(plan: &Plan, arguments: &SweepArguments, global: &Global, terminal: &Term
     if folder.log.damaged > 0 {
         terminal.error(&format!("warning: {} damaged rows in {}: these runs are made again\n", folder.log.damaged, place.display()));
     }
-    let runner = Runner {
-        run: &|scenario| judged_run(scenario, &Clock::with_limit(global.timeout)).report,
-        command: &|member| command(member, &plan.scenario, &arguments.path, global),
-    };
+    let runner =
+        Runner { run: &|scenario| judged(scenario, global), command: &|member| command(member, &plan.scenario, &arguments.path, global) };
     let threads = global.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
     let progress = SweepProgress::new(terminal, folder.log.rows, arguments.shard.size(plan.members));
     let mut told = |row: &Row, pace| progress.row(row, pace, global.verbose > 0);
@@ -86,6 +89,14 @@ fn run(plan: &Plan, arguments: &SweepArguments, global: &Global, terminal: &Term
     drop(progress);
     done?;
     folder.finish(plan, arguments.shard)
+}
+
+fn judged(scenario: &Scenario, global: &Global) -> RunReport {
+    let mut report = judged_run(scenario, &Clock::with_limit(global.timeout)).report;
+    if global.deny_warnings {
+        report.deny_warnings();
+    }
+    report
 }
 
 fn default_folder(plan: &Plan, shard: Shard) -> PathBuf {
@@ -104,11 +115,12 @@ fn command(member: &Member, name: &str, path: &Path, global: &Global) -> String 
     flag("--seed", &member.scenario.work.seed().to_string());
     flag("--out", &format!("runs/{name}-sweep/{}", member.index));
     words.extend(global.lenient.then(|| "--lenient".to_owned()));
+    words.extend(global.deny_warnings.then(|| "--deny-warnings".to_owned()));
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }
 
 /// The word as a shell takes it.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./:=,+@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }

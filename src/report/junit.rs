@@ -7,7 +7,7 @@ use std::time::Duration;
 use quick_junit::{NonSuccessKind, Property, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::check_report::{CheckReport, Checked};
-use super::{CriterionReport, verdict};
+use super::{CriterionReport, Outcome, verdict};
 
 /// The case that says whether there are answers at all: the scenario could be used, something was learned, the simulation stayed finite.
 const COMPLETED: &str = "completed";
@@ -38,6 +38,8 @@ fn suite(check: &Checked) -> TestSuite {
     }
     let status = match check.error() {
         None => TestCaseStatus::success(),
+        // What was run and judged, such as a run whose warnings are denied, is no error.
+        Some(error) if check.outcome == Outcome::CriteriaNotMet => not_success(NonSuccessKind::Failure, "warnings", &error),
         Some(error) => not_success(NonSuccessKind::Error, check.outcome.name(), &error),
     };
     let mut completed = TestCase::new(COMPLETED, status);

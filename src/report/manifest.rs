@@ -32,6 +32,8 @@ pub struct Manifest {
     pub directory: Option<PathBuf>,
     /// When it began (s since 1970-01-01 UTC).
     pub started_unix_s: Option<u64>,
+    /// XXH3-64 of the `scenario.toml` in the folder, in hexadecimal.
+    pub scenario_xxh3_64: Option<String>,
     /// The files that decide the run.
     pub inputs: Vec<FileHash>,
     /// Where it ran.
@@ -83,6 +85,7 @@ impl Manifest {
             command: Vec::new(),
             directory: None,
             started_unix_s: None,
+            scenario_xxh3_64: None,
             inputs: Vec::new(),
             host: Host::this(),
         }
@@ -97,9 +100,11 @@ impl Manifest {
 /// Length and hash of a file.
 pub fn hash_file(path: &Path) -> FileHash {
     let bytes = std::fs::read(path).ok();
-    FileHash {
-        path: path.to_path_buf(),
-        bytes: bytes.as_ref().map(|bytes| bytes.len() as u64),
-        xxh3_64: bytes.map(|bytes| format!("{:016x}", XxHash3_64::oneshot(&bytes))),
-    }
+    FileHash { path: path.to_path_buf(), bytes: bytes.as_ref().map(|bytes| bytes.len() as u64), xxh3_64: bytes.as_deref().map(hash_bytes) }
+}
+
+/// XXH3-64 of what a file holds, in hexadecimal.
+#[must_use]
+pub fn hash_bytes(bytes: &[u8]) -> String {
+    format!("{:016x}", XxHash3_64::oneshot(bytes))
 }

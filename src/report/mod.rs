@@ -42,7 +42,7 @@ pub use github::github;
 pub use junit::junit;
 pub use learn_report::LearnReport;
 pub use lock::{Lock, LockError, lock};
-pub use manifest::{FileHash, Host, Manifest, hash_file};
+pub use manifest::{FileHash, Host, Manifest, hash_bytes, hash_file};
 pub use outcome::Outcome;
 pub use output_file::{Replaceable, prepare_file, replace_file, rewrite_file};
 pub use recorded_report::RecordedReport;

@@ -15,6 +15,20 @@ pub struct RecordedReport {
     pub error: Option<String>,
     /// Its questions and their answers; none when it could not be finished.
     pub criteria: Vec<CriterionReport>,
+    /// What looked odd.
+    #[serde(default)]
+    pub warnings: Vec<String>,
+    /// How learning went.
+    #[serde(default)]
+    pub learning: Option<RecordedLearning>,
+}
+
+/// What a run said of its learning.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct RecordedLearning {
+    /// What it warned of.
+    #[serde(default)]
+    pub warnings: Vec<String>,
 }
 
 impl RecordedReport {
@@ -49,7 +63,8 @@ impl RecordedReport {
 
 impl RunReport {
     /// The report of a stored run that was judged again, with what the run said of itself: where nothing was judged, its own answers stand,
-    /// unless `changed` says that they are those of another scenario. A run is never judged better than it was.
+    /// unless `changed` says that they are those of another scenario. What it warned of is told again. A run is never judged better than it
+    /// was.
     #[must_use]
     pub fn with_record(mut self, record: &RecordedReport, changed: bool) -> Self {
         for criterion in self.criteria.iter_mut().filter(|criterion| criterion.status == AnswerStatus::NotJudged) {
@@ -64,10 +79,17 @@ impl RunReport {
             }
         }
         self.criteria.push(recorded_criteria(record));
-        if !matches!(record.outcome, Outcome::Passed | Outcome::CriteriaNotMet) {
+        // Denied warnings end a run with criteria that were not met, and a reason.
+        if record.error.is_some() || !matches!(record.outcome, Outcome::Passed | Outcome::CriteriaNotMet) {
             let ended = record.outcome.name().replace('_', " ");
             let reason = record.error.as_ref().map_or(String::new(), |error| format!(": {error}"));
             self.error = Some(format!("the run ended with \"{ended}\"{reason}"));
+        }
+        let learned = record.learning.iter().flat_map(|learning| &learning.warnings);
+        for warning in record.warnings.iter().chain(learned) {
+            if !self.warnings.contains(warning) {
+                self.warnings.push(warning.clone());
+            }
         }
         let judged = if self.criteria.iter().any(CriterionReport::fails) { Outcome::CriteriaNotMet } else { Outcome::Passed };
         self.end_as(judged.max(record.outcome).max(self.outcome));

@@ -16,11 +16,15 @@ pub(super) fn numbers(criterion: &CriterionReport) -> String {
     format!("{}, limit {}{margin}{whose}", with_unit(criterion.value), with_unit(criterion.limit))
 }
 
+/// What is said of a required criterion without an answer.
+const NO_ANSWER: &str = "has no answer: what it asks about never happened, or not for long enough, or is a distance of two things of which \
+                         neither can move, or of one that is not there";
+
 /// Why the criterion is not as expected.
 pub(super) fn reason(criterion: &CriterionReport) -> String {
     let found = match (criterion.passed, criterion.value) {
         (true, _) => "holds, but should not".to_owned(),
-        (false, None) => "has no answer: what it asks about never happened, or not for long enough".to_owned(),
+        (false, None) => NO_ANSWER.to_owned(),
         (false, Some(_)) => criterion.first_failed_time_s.map_or("fails".to_owned(), |time| format!("fails first at {time:.3} s")),
     };
     format!("{found}: {}", numbers(criterion))

@@ -7,6 +7,7 @@ use super::beside;
 use super::build;
 use super::build_criteria;
 use super::build_planar;
+use super::check_overrides;
 use super::check_planar;
 use super::checks;
 use super::conform::Conform;
@@ -77,6 +78,14 @@ pub struct LoadOptions {
     pub lenient: bool,
     /// Whether what would be a warning is an error.
     pub deny_warnings: bool,
+}
+
+impl LoadOptions {
+    /// The same without anything that makes another scenario of the file's.
+    #[must_use]
+    pub fn without_overrides(&self) -> Self {
+        Self { set: Vec::new(), seed: None, robot: None, deny_warnings: false, ..self.clone() }
+    }
 }
 
 impl Scenario {
@@ -164,6 +173,7 @@ pub(super) fn fill(mut tree: Node, sources: &Sources, roots: &Roots, faults: &mu
     only_latest(&mut tree, ["demonstrations", "teaching"], sources);
     let filled = Conform { sources, roots, faults }.table(tree, &SCENARIO, "");
     faults.extend(checks::check(&filled));
+    check_overrides::parameters_without_effect(&filled, sources, faults);
     filled
 }
 

@@ -84,6 +84,11 @@ impl Sources {
         self.0.iter().filter(|source| source.rank <= 0).map(|source| PathBuf::from(&source.name)).collect()
     }
 
+    /// Whether something was typed in a file, and is not a value over which a sweep goes.
+    pub fn is_of_a_file(&self, origin: Origin) -> bool {
+        self.rank(origin) <= 0
+    }
+
     /// Whether something was typed on the command line.
     pub fn is_override(&self, origin: Origin) -> bool {
         self.rank(origin) >= COMMAND_LINE

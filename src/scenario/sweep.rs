@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::conform::Conform;
 use super::diagnostic::{InvalidScenario, diagnose};
-use super::fault::{Code, Fault, Severity, tolerate_unknown_keys};
+use super::fault::{Code, Fault, Severity, deny_warnings, tolerate_unknown_keys};
 use super::key::{Key, Kind, Shape};
 use super::load::{LoadOptions, Scenario, fill, layered};
 use super::overrides::{self, spelled};
@@ -40,6 +40,7 @@ pub struct Sweep {
     roots: Roots,
     axes: Vec<Axis>,
     lenient: bool,
+    deny_warnings: bool,
 }
 
 impl Sweep {
@@ -64,11 +65,14 @@ impl Sweep {
         if options.lenient {
             tolerate_unknown_keys(&mut faults);
         }
+        if options.deny_warnings {
+            deny_warnings(&mut faults);
+        }
         let diagnostics = diagnose(faults, &sources);
         if diagnostics.iter().any(|found| found.severity == Severity::Error) {
             return Err(InvalidScenario(diagnostics));
         }
-        Ok(Self { tree, sources, roots, axes, lenient: options.lenient })
+        Ok(Self { tree, sources, roots, axes, lenient: options.lenient, deny_warnings: options.deny_warnings })
     }
 
     /// How many members there are; 0 when nothing varies.
@@ -98,6 +102,9 @@ impl Sweep {
         let filled = fill(tree, &self.sources, &self.roots, &mut faults);
         if self.lenient {
             tolerate_unknown_keys(&mut faults);
+        }
+        if self.deny_warnings {
+            deny_warnings(&mut faults);
         }
         let varied = || values.iter().filter(|(key, ..)| *key != "seed");
         let overrides = varied().map(|(key, _, node)| override_of(key, node, &filled)).collect();

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::{Setup, SimulationError};
 use crate::demonstration::{QUATERNION_COLUMNS, Trajectory};
+use crate::world::{ObjectKind, support_height_m};
 
 /// A movement in the joints of the working arm.
 #[derive(Clone, Debug)]
@@ -14,7 +15,7 @@ pub struct ArmMotion {
     pub arm_rad: Vec<Vec<f64>>,
     /// Opening of the gripper at each time (0 closed … 1 open); open when nothing is said.
     pub gripper: Vec<f64>,
-    /// `world_from_object` of every object at each time, when it is known for all of them.
+    /// `world_from_object` of every object at each time, when it is known of those that can move.
     pub objects: Option<Vec<Vec<Isometry3<f64>>>>,
     /// Of tool poses: how far the arm stays away from them at worst.
     pub reach: Option<Reach>,
@@ -35,16 +36,16 @@ pub struct Reach {
 
 impl ArmMotion {
     /// From the columns of a trajectory: `NAME_rad` for every joint of the working arm, or `q1_rad`, `q2_rad` … from the shoulder, or the
-    /// tool's pose `x_m, y_m, z_m, qx, qy, qz, qw` (world). `gripper` is its opening; `OBJECT_x_m` … `OBJECT_qw` of all objects, as a step log
-    /// has them, are where those are.
+    /// tool's pose `x_m, y_m, z_m, qx, qy, qz, qw` (world). `gripper` is its opening; `OBJECT_x_m` … `OBJECT_qw`, as a step log has them, are
+    /// where the objects that can move are: all of them, or none, and they stay where they start.
     ///
     /// # Errors
-    /// When the columns hold neither joints nor poses.
+    /// When the columns hold neither joints nor poses, or tell of some of the objects only.
     pub fn new(setup: &Setup, trajectory: &Trajectory) -> Result<Self, SimulationError> {
         let mut arm = setup.arm();
         let named: Vec<String> = (0..arm.joints()).map(|joint| format!("{}_rad", arm.joint_name(joint))).collect();
         let counted: Vec<String> = (1..=arm.joints()).map(|number| format!("q{number}_rad")).collect();
-        let objects = objects(setup, trajectory);
+        let objects = objects(setup, trajectory)?;
         let gripper = trajectory.gripper().or_else(|| trajectory.column("gripper_opening"));
         let gripper = gripper.map_or_else(|| vec![1.0; trajectory.samples()], |column| column.as_slice().to_vec());
         let mut motion = Self {
@@ -96,9 +97,40 @@ fn poses(trajectory: &Trajectory, prefix: &str) -> Option<Vec<Isometry3<f64>>> {
     Some(values.row_iter().map(|row| pose(row.into_owned())).collect())
 }
 
-/// The poses of all objects, sample by sample.
-fn objects(setup: &Setup, trajectory: &Trajectory) -> Option<Vec<Vec<Isometry3<f64>>>> {
+/// How far from its hinge a door may be logged (m): more than the engine's joint gives, less than anybody would move a cabinet.
+const HINGE_M: f64 = 2e-3;
+
+/// The poses of all objects, sample by sample, when the trajectory tells them of those that can move. The others are where the scene puts them.
+fn objects(setup: &Setup, trajectory: &Trajectory) -> Result<Option<Vec<Vec<Isometry3<f64>>>>, SimulationError> {
+    let (all, parameters) = (&setup.experiment.objects, &setup.experiment.parameters);
     let of_object = |name: &str| poses(trajectory, &format!("object_{name}_")).or_else(|| poses(trajectory, &format!("{name}_")));
-    let each: Vec<Vec<Isometry3<f64>>> = setup.experiment.objects.iter().map(|object| of_object(&object.name)).collect::<Option<_>>()?;
-    Some((0..trajectory.samples()).map(|sample| each.iter().map(|poses| poses[sample]).collect()).collect())
+    let told: Vec<Option<Vec<Isometry3<f64>>>> = all.iter().map(|object| of_object(&object.name).filter(|_| object.moves())).collect();
+    if told.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let mut each = Vec::with_capacity(all.len());
+    for (object, told) in all.iter().zip(told) {
+        let start = object.pose(parameters, support_height_m(all, object, parameters));
+        let name = &object.name;
+        match told {
+            Some(poses) => {
+                let off_m = |pose: &Isometry3<f64>| (pose.translation.vector - start.translation.vector).norm();
+                let hinge = matches!(object.kind, ObjectKind::Cabinet(_)).then_some(off_m);
+                if let Some(off_m) = hinge.and_then(|off_m| poses.iter().map(off_m).find(|off_m| *off_m > HINGE_M)) {
+                    return Err(SimulationError::Trajectory(format!(
+                        "it has the door of `{name}` {:.1} mm from the hinge that the scenario gives it: judge it in the scene that it is of",
+                        off_m * 1e3
+                    )));
+                }
+                each.push(poses);
+            }
+            None if object.moves() => {
+                return Err(SimulationError::Trajectory(format!(
+                    "it says where other objects are, but not where `{name}` is, which can move: add the columns {name}_x_m … {name}_qw"
+                )));
+            }
+            None => each.push(vec![start; trajectory.samples()]),
+        }
+    }
+    Ok(Some((0..trajectory.samples()).map(|sample| each.iter().map(|poses| poses[sample]).collect()).collect()))
 }

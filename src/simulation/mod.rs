@@ -4,6 +4,7 @@
 
 mod arm_motion;
 mod beside;
+mod changed_scene;
 mod error;
 mod execution;
 mod experiment;
@@ -28,6 +29,7 @@ mod trace;
 
 pub use arm_motion::{ArmMotion, Reach};
 pub use beside::{Beside, Variation, execute_beside};
+pub use changed_scene::moved_otherwise;
 pub use error::SimulationError;
 pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings, TeachingPlan, Waypoint};
 pub use lesson_record::{LOOKS_HZ, LessonLook, LessonRecord};

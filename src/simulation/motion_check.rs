@@ -1,6 +1,7 @@
 //! Judges a movement by geometry alone: what the arm would touch, how near it comes to what, whether its joints can go that way.
 
 use super::{ArmMotion, Reach, Setup, SimulationError};
+use crate::robot::Finding;
 use crate::world::{Clearance, ContactEpisode, KinematicScene, Placement};
 
 /// What became of a movement.
@@ -20,6 +21,8 @@ pub struct MotionOutcome {
     pub speed: JointExtreme,
     /// Of tool poses: how well they are reached.
     pub reach: Option<Reach>,
+    /// What is odd about the robot's file.
+    pub robot_warnings: Vec<Finding>,
 }
 
 /// The joint that is worst in some respect.
@@ -51,6 +54,7 @@ pub fn check_motion(setup: &Setup, motion: &ArmMotion) -> Result<MotionOutcome, 
         limit: nearest_limit(setup, motion),
         speed: fastest(setup, motion),
         reach: motion.reach,
+        robot_warnings: setup.warnings.clone(),
     })
 }
 

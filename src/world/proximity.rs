@@ -103,7 +103,6 @@ enum Told {
     Always,
     /// While the gripper holds this object.
     WhileHeld(usize),
-    Never,
 }
 
 /// Watches distances and touches.
@@ -200,7 +199,6 @@ impl Told {
         match self {
             Self::Always => true,
             Self::WhileHeld(object) => held.contains(&object),
-            Self::Never => false,
         }
     }
 }
@@ -236,10 +234,10 @@ fn note_distance(least: &Moment, motion: &Motion, entry: &mut Clearance) {
 fn watched(a: Owner, b: Owner, moving: &[bool]) -> Option<Told> {
     match (a, b) {
         (Owner::Robot { limb: Limb::Working, .. }, Owner::Robot { limb, .. }) => (limb != Limb::Working).then_some(Told::Always),
-        (Owner::Robot { limb: Limb::Working, .. }, Owner::Object(_)) => Some(Told::Always),
-        (Owner::Robot { .. }, Owner::Object(object)) if moving[object] => Some(Told::Always),
-        // What holds still is as far from what stands still as the scene says; only a blow could change that.
-        (Owner::Robot { limb: Limb::Idle, .. }, Owner::Robot { limb: Limb::Fixed, .. } | Owner::Object(_)) => Some(Told::Never),
+        (Owner::Robot { limb: Limb::Idle, .. }, Owner::Robot { limb: Limb::Fixed, .. }) => Some(Told::Always),
+        // An arm that holds still is watched too: it gives way a little, and a blow moves it.
+        (Owner::Robot { limb: Limb::Working | Limb::Idle, .. }, Owner::Object(_)) => Some(Told::Always),
+        (Owner::Robot { limb: Limb::Fixed, .. }, Owner::Object(object)) if moving[object] => Some(Told::Always),
         (Owner::Object(a), Owner::Object(b)) => (a != b && moving[a]).then_some(Told::WhileHeld(a)),
         _ => None,
     }

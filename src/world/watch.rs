@@ -70,11 +70,11 @@ mod tests {
 
     /// Contract: a ball of 2 mm that crosses a sheet of 0.5 mm at 5 m/s, and so passes through it between two steps of the engine, is found;
     /// one that turns back 0.1 mm before it is not, and its distance is known as if it had been looked at all the time. So it is whether the ball
-    /// belongs to the working arm or is an object that nobody holds, whose distances are not told.
+    /// belongs to an arm, the working or the idle one, or is an object that nobody holds, whose distances are not told.
     #[test]
     fn what_passes_through_a_sheet_between_two_steps_is_found() {
         crossing(Owner::Robot { body: 1, finger: false, limb: Limb::Working }, true);
-        crossing(Owner::Robot { body: 1, finger: false, limb: Limb::Idle }, false);
+        crossing(Owner::Robot { body: 1, finger: false, limb: Limb::Idle }, true);
         crossing(Owner::Object(1), false);
     }
 

@@ -176,6 +176,7 @@ fn a_pose_that_is_reached_turned_away_is_not_reached() {
             limit: fine.clone(),
             speed: fine.clone(),
             reach: Some(reach),
+            robot_warnings: Vec::new(),
         };
         let criteria = judge_motion(&outcome, &experiment, &[]);
         ["poses_reached", "orientations_reached"].map(|name| {
@@ -187,4 +188,80 @@ fn a_pose_that_is_reached_turned_away_is_not_reached() {
     assert_eq!(judged(reach), [(true, None), (true, None)]);
     assert_eq!(judged(Reach { orientation_error_rad: 0.1, ..reach }), [(true, None), (false, Some(0.7))]);
     assert_eq!(judged(Reach { position_error_m: 0.1, ..reach }), [(false, Some(0.2)), (true, None)]);
+}
+
+/// A plate below the arm that holds still, its top at 0.02 m and as much higher as it is raised.
+const SHELF: &str = r#"
+[[object]]
+name = "shelf"
+kind = "box"
+center_m = [0.7, -0.55]
+size_m = [0.8, 0.4, 0.02]
+mass_kg = 1
+fixed = true
+
+[[criterion]]
+name = "idle_hand"
+kind = "clearance"
+objects = ["shelf"]
+links = ["right_hand"]
+min_m = 0.05
+"#;
+
+/// Contract: the arm that holds still has a distance to what stands still, by geometry and in the engine: over a plate, that of its lowest point
+/// to the plate's top, so that it shrinks by as much as the plate is raised, and a criterion about it is judged.
+#[test]
+fn an_arm_that_holds_still_has_a_distance_to_what_stands_still() {
+    let still = "-0.4347,-1.0645,-0.4138,1.934,0.2873,0.7587,1.3";
+    let joints = ["s0", "s1", "e0", "e1", "w0", "w1", "w2"].map(|joint| format!("left_{joint}_rad")).join(",");
+    let samples = format!("time_s,{joints}\n0,{still}\n1,{still}\n");
+    let folder = Folder::with(&[("a.toml", format!("{GOOD}{SHELF}").as_bytes()), ("still.csv", samples.as_bytes())]);
+    let asked = |arguments: &[&str], code: i32| {
+        let said = folder.call(&[arguments, &["--format", "json", "-q"]].concat());
+        assert_eq!(said.code, Some(code), "{}{}", said.stdout, said.stderr);
+        let report: Value = serde_json::from_str(&said.stdout).expect("JSON");
+        let criteria = report["checks"][0]["report"]["criteria"].as_array().expect("a list").clone();
+        let found = criteria.into_iter().find(|one| one["name"] == "idle_hand").expect("asked");
+        assert_eq!((found["status"].as_str(), found["passed"].as_bool()), (Some("judged"), Some(code == 0)), "{found}");
+        found["value"].as_f64().expect("a distance")
+    };
+    let by_geometry = |raised: &str, code: i32| asked(&["check", "still.csv", "--scene", "a.toml", "--set", raised], code);
+    let (low, middle) = (by_geometry("object.shelf.raised_m=-0.3", 0), by_geometry("object.shelf.raised_m=-0.2", 0));
+    let high = by_geometry("object.shelf.raised_m=-0.1", 0);
+    assert!((low - middle - 0.1).abs() < 1e-6 && (middle - high - 0.1).abs() < 1e-6, "{low} {middle} {high}");
+    let near = by_geometry("object.shelf.raised_m=-0.05", 10);
+    assert!((high - near - 0.05).abs() < 1e-6, "{high} {near}");
+    let simulated = asked(&["check", "a.toml", "--set", "object.shelf.raised_m=-0.1"], 0);
+    assert!((simulated - high).abs() < 2e-3, "held by its joints, it gives way a little: {simulated} instead of {high}");
+}
+
+/// Contract: samples that say where objects are say it of all that can move, and of a door that hangs on its hinge.
+#[test]
+fn objects_are_where_the_samples_say_or_are_refused() {
+    let scenario = include_str!("../../scenarios/cabinet_door.toml");
+    let cup = "\n[[object]]\nname = \"cup\"\nkind = \"cylinder\"\ncenter_m = [0.5, -0.6]\nradius_m = 0.03\nheight_m = 0.1\nmass_kg = 0.1\n";
+    let table = "\n[[object]]\nname = \"desk\"\nkind = \"table\"\ncenter_m = [0.5, -0.6]\nsize_m = [0.2, 0.2]\ntop_height_m = 0.0\n";
+    let folder = Folder::with(&[("a.toml", scenario.as_bytes()), ("b.toml", format!("{scenario}{table}{cup}").as_bytes())]);
+    let Work::Arm(experiment) = Scenario::load(&folder.path().join("a.toml"), &LoadOptions::default()).expect("good").work else {
+        panic!("no arm")
+    };
+    let hinge = experiment.objects[0].pose(&experiment.parameters, 0.0).translation;
+    let rest: Vec<String> = experiment.robot.rest_posture_rad.iter().map(ToString::to_string).collect();
+    let (counted, rest) = ((1..=rest.len()).map(|joint| format!("q{joint}_rad")).collect::<Vec<_>>().join(","), rest.join(","));
+    let name = &experiment.objects[0].name;
+    let place = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"].map(|column| format!("{name}_{column}")).join(",");
+    let door = |off_m: f64| {
+        let row = |time_s: f64| format!("{time_s},{rest},{},{},{},0,0,0,1\n", hinge.x + off_m, hinge.y, hinge.z);
+        let text = format!("time_s,{counted},{place}\n{}{}", row(0.0), row(1.0));
+        std::fs::write(folder.path().join("x.csv"), text).expect("written");
+    };
+    let check = |scene: &str| folder.call(&["check", "x.csv", "--scene", scene]);
+    door(0.0);
+    let said = check("a.toml");
+    assert_eq!(said.code, Some(0), "{}{}", said.stdout, said.stderr);
+    let said = check("b.toml");
+    assert!(said.code == Some(3) && said.stdout.contains("not where `cup` is, which can move"), "{}", said.stdout);
+    door(0.01);
+    let said = check("a.toml");
+    assert!(said.code == Some(3) && said.stdout.contains("10.0 mm from the hinge"), "{}", said.stdout);
 }

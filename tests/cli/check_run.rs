@@ -126,3 +126,65 @@ fn a_planar_run_is_told_as_it_ended() {
     let criteria = check["report"]["criteria"].as_array().expect("a list").clone();
     assert!(criteria.len() > 1 && criteria.iter().all(|one| one["status"] == "recorded"), "{check:#}");
 }
+
+/// A scenario that warns: one demonstration says nothing of where people do it differently.
+const WARNS: [&str; 5] = ["a.toml", "--set", "teaching.grid.block_height_m=[0.2]", "--set", "learning.theta_m=[]"];
+
+/// Contract: what a run warned of is not forgotten when its folder is checked: denied when it ran, it ends the check as it ended the run, with the
+/// reason in every format; denied now, it is one that is not as expected.
+#[test]
+fn warnings_of_a_run_are_told_and_denied_when_it_is_checked() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let run = |more: &[&str]| folder.call(&[&["run"], &WARNS[..], more].concat()).code;
+    assert_eq!((run(&["--out", "denied", "-q", "--deny-warnings"]), run(&["--out", "warned", "-q"])), (Some(10), Some(0)));
+    for (arguments, denied) in [(&["denied"][..], true), (&["warned"], false), (&["warned", "--deny-warnings"], true)] {
+        let call = |format: &str| folder.call(&[&["check"], arguments, &["-q", "--format", format]].concat());
+        let said = call("json");
+        assert_eq!(said.code, Some(if denied { 10 } else { 0 }), "{arguments:?}: {}{}", said.stdout, said.stderr);
+        let check = checked(&said);
+        assert!(check["report"]["warnings"].to_string().contains("one demonstration"), "{arguments:?}: {check:#}");
+        let error = check["report"]["error"].as_str().unwrap_or_default();
+        assert_eq!(error.contains("--deny-warnings: ") && error.contains("one demonstration"), denied, "{arguments:?}: {error}");
+        assert_eq!(call("human").stdout.contains("--deny-warnings: "), denied, "{arguments:?}");
+        assert_eq!(kind(&call("junit").stdout, "completed"), denied.then(|| "failure".to_owned()), "{arguments:?}");
+    }
+}
+
+/// Contract: a log tells where what could move was. What stands still may be changed, and is judged where it stands; what moved may not, and the flag
+/// is named that changes it.
+#[test]
+fn a_log_is_not_judged_in_a_scene_in_which_it_would_have_been_another() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    assert_eq!(folder.call(&["run", "a.toml", "--out", "out", "-q"]).code, Some(0));
+    for flag in ["object.toy.center_m=[0.6, 0.15]", "object.toy.radius_m=0.05", "object.table.top_height_m=-0.1"] {
+        let said = folder.call(&["check", "out", "--set", "criterion.goal.max_m=1", "--set", flag]);
+        assert_eq!(said.code, Some(3), "{flag}: {}", said.stdout);
+        let to_blame = if flag.contains(' ') { format!("'{flag}'") } else { flag.to_owned() };
+        assert!(said.stdout.contains(&format!("--set: error[conflict]: --set {to_blame} makes `toy` ")), "{}", said.stdout);
+        assert!(said.stdout.contains("run it again: cpdmp run out/scenario.toml --set "), "{}", said.stdout);
+    }
+    let said = folder.call(&["check", "out", "--set", "object.block.center_m=[0.6, 0.25]", "--format", "json", "-q"]);
+    assert_eq!(said.code, Some(10), "{}", said.stdout);
+    let contacts = checked(&said)["report"]["collisions"].to_string();
+    assert!(contacts.contains("block.base"), "the arm went where the block is put: {contacts}");
+    assert_eq!(folder.call(&["check", "out", "--set", "object.block.center_m=[1.3, 0.9]"]).code, Some(0));
+}
+
+/// Contract: a scenario that was edited in the folder of a run is not what was run: neither judged nor repeated, and told what to do.
+#[test]
+fn an_edited_scenario_is_not_that_of_the_run() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    assert_eq!(folder.call(&["run", "a.toml", "--out", "out", "-q"]).code, Some(0));
+    let path = folder.path().join("out/scenario.toml");
+    let text = std::fs::read_to_string(&path).expect("text");
+    assert!(text.contains("max_m = 0.02"));
+    std::fs::write(&path, text.replace("max_m = 0.02", "max_m = 0.2")).expect("written");
+    for command in ["check", "replay"] {
+        let said = folder.call(&[command, "out"]);
+        assert_eq!(said.code, Some(3), "{command}: {}{}", said.stdout, said.stderr);
+        let told = said.stdout + &said.stderr;
+        assert!(told.contains("out/scenario.toml: ") && told.contains("edited since") && told.contains("--out ANOTHER_FOLDER"), "{told}");
+    }
+    std::fs::write(&path, text).expect("written");
+    assert_eq!((folder.call(&["check", "out"]).code, folder.call(&["replay", "out"]).code), (Some(0), Some(0)), "restored");
+}

@@ -34,6 +34,8 @@ fn an_override_is_checked_like_the_file_and_named_as_what_it_is() {
         ("step_s=0.001", "it belongs to [simulation]"),
         ("teaching.waypoint.7.time_s=1", "expected a number below 2"),
         ("name.first=a", "has no keys"),
+        ("parameters.block_hight_m=0.2", "did you mean `block_height_m`?"),
+        ("parameters.speed=1", "nothing in the scenario asks for a parameter `speed`"),
     ] {
         let said = good().call(&["validate", "a.toml", "--set", typed]);
         assert_eq!(said.code, Some(3), "{typed}");
@@ -66,4 +68,14 @@ fn a_robot_that_cannot_be_used_is_told_before_anything_is_written() {
         assert!(said.stderr.contains("b.urdf"), "{}", said.stderr);
     }
     assert!(!folder.path().join("runs/good-0").exists());
+}
+
+/// Contract: a parameter that a flag or a sweep names must be asked for by something, which flags may say too.
+#[test]
+fn a_parameter_that_nothing_asks_for_cannot_be_set() {
+    let folder = good();
+    let said = folder.call(&["sweep", "a.toml", "--grid", "parameters.block_hight_m=0.2,0.3", "--dry-run"]);
+    assert!(said.code == Some(3) && said.stderr.contains("did you mean `block_height_m`?"), "{}", said.stderr);
+    let said = folder.call(&["validate", "a.toml", "--set", "parameters.aside_m=0.02", "--set", "object.toy.lateral_offset_m=aside_m"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
 }

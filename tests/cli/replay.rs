@@ -164,6 +164,33 @@ fn another_version_or_architecture_is_named_as_the_reason() {
     assert!(code == Some(13) && reasons.contains("made by cpdmp 0.0.1 on abacus") && !reasons.contains("bug"), "{changed}");
 }
 
+/// Contract: a flag that says what the run was told anyway makes no other run of it: by its value, wherever it comes from.
+#[test]
+fn the_seed_of_the_run_is_no_other_seed() {
+    let folder = ran(&[("a.toml", format!("{GOOD}{PUSHED}").as_bytes())], &["--set", "recording.snapshot_every_steps=900"]);
+    for from in [&["--from", "execute"][..], &["--from-time", "2.5"]] {
+        assert_eq!(told(&folder, &[from, &["--seed", "0"]].concat()).0, Some(0), "{from:?}");
+    }
+    let manifest = folder.path().join("run/manifest.json");
+    let mut other: Value = serde_json::from_str(&fs::read_to_string(&manifest).expect("text")).expect("JSON");
+    other["state_hash"] = "0123456789abcdef".into();
+    fs::write(&manifest, other.to_string()).expect("written");
+    fs::remove_file(folder.path().join("run/state_hashes.parquet")).expect("removed");
+    let of_environment = super::cpdmp()
+        .current_dir(folder.path())
+        .args(["replay", "run", "--format", "json", "-q"])
+        .env("CPDMP_SEED", "0")
+        .output()
+        .expect("it starts");
+    let of_environment: Value = serde_json::from_slice(&of_environment.stdout).expect("JSON");
+    let same = ["--seed=0", "--set=human.help.force_n=[5, 0, 0]", "--robot=builtin:baxter"].map(|flag| told(&folder, &[flag]).1);
+    for differs in same.iter().chain([&of_environment]) {
+        let reasons = differs["reasons"].to_string();
+        assert!(differs["exit_code"] == 13 && reasons.contains("bug") && !reasons.contains("flags"), "{differs}");
+    }
+    assert!(told(&folder, &["--seed", "1"]).1["reasons"].to_string().contains("flags"));
+}
+
 #[test]
 fn a_planar_run_is_repeated_too() {
     let shipped = include_str!("../../scenarios/obstacle_avoidance.toml");

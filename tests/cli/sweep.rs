@@ -9,8 +9,8 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::Value;
 
-use super::Folder;
 use super::program::names;
+use super::{Folder, GOOD};
 
 /// A planar experiment of a tenth of a second with a small sweep.
 const SHORT: &str = r#"
@@ -247,4 +247,26 @@ fn words_and_seeds_vary_too() {
     let seeds: Vec<&Field> = rows.iter().map(|row| &row[1]).collect();
     assert_eq!(seeds, [&Field::Long(3), &Field::Long(3), &Field::Long(5), &Field::Long(5)]);
     assert_eq!(rows[1][2], Field::Str("ergodic".to_owned()));
+}
+
+/// Contract: with `--deny-warnings` what `run` would refuse is refused of every member before the first run, and a run that warns of something is one
+/// that is not as expected, as its command says.
+#[test]
+fn denied_warnings_are_faults_of_members_and_of_their_runs() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let sweep = |more: &[&str]| folder.call(&[&["sweep", "a.toml", "--format", "json", "-q"], more].concat());
+    let beyond = ["--grid", "parameters.block_height_m=0.2,0.4"];
+    assert_eq!(sweep(&[&beyond[..], &["--dry-run"]].concat()).code, Some(0));
+    let said = sweep(&[&beyond[..], &["--deny-warnings"]].concat());
+    assert_eq!(said.code, Some(3), "{}{}", said.stdout, said.stderr);
+    assert!(said.stdout.contains("member 1") && said.stdout.contains("untaught") && !said.stdout.contains("member 0"), "{}", said.stdout);
+    assert_eq!(folder.names(), ["a.toml"], "nothing was run");
+    let alone = ["--set", "teaching.grid.block_height_m=[0.2]", "--set", "learning.theta_m=[]", "--repeat", "1", "--out", "s"];
+    let said = sweep(&[&alone[..], &["--deny-warnings"]].concat());
+    assert_eq!(said.code, Some(10), "{}{}", said.stdout, said.stderr);
+    let rows = fs::read_to_string(folder.path().join("s/rows.jsonl")).expect("rows");
+    assert!(rows.contains("--deny-warnings: ") && rows.contains("one demonstration"), "the reason: {rows}");
+    assert!(rows.contains(" --deny-warnings\""), "the command: {rows}");
+    let said = sweep(&[&alone[..], &["--resume"]].concat());
+    assert!(said.code == Some(3) && said.stdout.contains("holds another sweep"), "{}{}", said.stdout, said.stderr);
 }
