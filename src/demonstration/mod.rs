@@ -45,6 +45,7 @@
 //! first form or the last, and reads back bit for bit.
 
 mod align;
+mod align_features;
 mod column_map;
 mod csv;
 mod dataset;

@@ -4,16 +4,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::alignment::Alignment;
 use super::automatic::{filled_in, force_features, motion_features, seen_force, seen_motion, thetas};
-use super::cpdmp::{Compliance, ForceModel, MotionModel, Shaping, spatial_columns, state_spreads};
+use super::cpdmp::{Compliance, ForceModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
-use super::ends::{EndRule, Ends, EndsReport, ends};
-use super::orientation::OrientationSample;
+use super::parts::{forcing_noise, gripper_profile, motion_model, orientation_profile, preparation};
 use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit_while, refine};
 use super::prepare::{Prepared, prepare};
-use super::{
-    FOR_EVER, GripperProfile, LearningError, LearningReport, LearningSettings, MayGoOn, OrientationProfile, ParameterSpace, Preparation,
-    ShapingKind, Skill, warnings,
-};
+use super::{FOR_EVER, LearningError, LearningReport, LearningSettings, MayGoOn, ParameterSpace, ShapingKind, Skill, warnings};
 use crate::demonstration::Dataset;
 
 /// A skill and how it came about.
@@ -195,60 +191,4 @@ fn check_first(dataset: &Dataset, settings: &LearningSettings, first: &Skill) ->
         faults.push("the baseline has no model to start from".to_owned());
     }
     if faults.is_empty() { Ok(()) } else { Err(LearningError::Skill(faults.join("\n"))) }
-}
-
-fn motion_model(
-    dataset: &Dataset,
-    prepared: &[Prepared],
-    settings: &LearningSettings,
-    shaping: Shaping,
-    seed: u64,
-) -> Result<(MotionModel, Option<EndsReport>), LearningError> {
-    let features = motion_features(prepared, settings, seed);
-    let parameters = ParameterSpace::of(dataset.parameters_m(), &thetas(prepared, |p| &p.theta_m)).with_features(features);
-    let given = if settings.shaping == ShapingKind::Lwr { settings.lwr_ends } else { EndRule::Regression };
-    let Ends { start, goal, report } = ends(dataset, prepared, &parameters, given)?;
-    let model = MotionModel {
-        stiffness: settings.stiffness,
-        duration_s: prepared.iter().map(|p| p.duration_s).sum::<f64>() / prepared.len() as f64,
-        alpha: settings.alpha,
-        phase_input: settings.phase_input,
-        gate_start: settings.gate_start,
-        columns: dataset.motion.clone(),
-        start,
-        goal,
-        parameters,
-        shaping,
-        evidence: Vec::new(),
-    };
-    Ok((model, report))
-}
-
-fn orientation_profile(prepared: &[Prepared], settings: &LearningSettings) -> Option<OrientationProfile> {
-    let (nothing, blind) = (DVector::zeros(0), settings.shaping == ShapingKind::Lwr);
-    let samples = prepared.iter().map(|p| {
-        let theta = if blind { &nothing } else { &p.theta_m };
-        Some(OrientationSample { fractions: &p.fractions, orientations: p.trajectory.orientations()?, theta })
-    });
-    let samples = samples.collect::<Option<Vec<_>>>()?;
-    let profile = OrientationProfile::fit(&samples, settings.orientation_basis, settings.motion.ridge);
-    Some(if blind { profile.blind_to(prepared[0].theta_m.len()) } else { profile })
-}
-
-fn gripper_profile(prepared: &[Prepared], warnings: &mut Vec<String>) -> Option<GripperProfile> {
-    let openings = prepared.iter().map(|p| Some(p.trajectory.gripper()?.iter().copied().collect()));
-    let (profile, warning) = GripperProfile::fit(&openings.collect::<Option<Vec<Vec<f64>>>>()?);
-    warnings.extend(warning);
-    Some(profile)
-}
-
-fn preparation(prepared: &[Prepared], settings: &LearningSettings) -> Preparation {
-    let windows = prepared.iter().map(|p| p.window_s);
-    let window_s = [windows.clone().fold(f64::INFINITY, f64::min), windows.fold(0.0, f64::max)];
-    Preparation { rate_hz: settings.rate_hz, window_s, degree: settings.smoothing_degree }
-}
-
-/// Mean estimated variance of sensor noise in the forcing term, per column.
-fn forcing_noise(prepared: &[Prepared]) -> DVector<f64> {
-    prepared.iter().map(|p| &p.noise).sum::<DVector<f64>>() / prepared.len() as f64
 }

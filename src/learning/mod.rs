@@ -25,6 +25,7 @@ mod linear_map;
 mod magnitudes;
 mod orientation;
 mod parameters;
+mod parts;
 mod patience;
 pub mod phmm;
 mod prepare;

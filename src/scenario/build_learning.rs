@@ -1,6 +1,6 @@
 //! A filled tree to the settings of learning and coupling.
 
-use super::schema::AUTO;
+use super::schema_learning::AUTO;
 use super::tree::Node;
 use crate::learning::cpdmp::{
     ComplianceSettings, CouplingMode, CouplingSettings, CouplingSpace, ForceConvention, Statistic, Switching, Threshold,
