@@ -21,11 +21,11 @@ use crate::learning::{self, Learned, Skill};
 /// When the robot, the demonstrations or a pose cannot be used, nothing can be learned, or the simulation diverges.
 pub fn run(experiment: &Experiment, progress: &dyn Progress) -> Result<RunOutcome, SimulationError> {
     let setup = Setup::new(experiment)?;
-    setup.preflight()?;
+    setup.preflight(progress)?;
     let (dataset, mut history) = demonstrate(&setup, progress)?;
     let started = progress.elapsed_s();
     progress.phase("learn", 0);
-    let learned = learning::learn(&dataset, &experiment.learning, experiment.seed)?;
+    let learned = learning::learn_while(&dataset, &experiment.learning, experiment.seed, &|| progress.may_go_on())?;
     history.close("learn", 0, started, progress);
     perform(&setup, &dataset, &learned, history, progress)
 }
@@ -61,7 +61,7 @@ pub fn perform(
 ) -> Result<RunOutcome, SimulationError> {
     let started = progress.elapsed_s();
     let mut outcome = planned(setup, dataset, learned, std::mem::take(&mut history.lessons))?;
-    setup.can_follow(&outcome.plan)?;
+    setup.can_follow(&outcome.plan, progress)?;
     progress.planned(&outcome);
     progress.phase("execute", 0);
     let executed = execute(setup, &learned.skill, None, progress)?;
