@@ -35,7 +35,7 @@ pub struct Beside {
 /// learns otherwise. The run itself is neither changed nor repeated, and none depends on another.
 ///
 /// # Errors
-/// Of each variation, those of [`learning::learn`] and [`perform`].
+/// Of each variation, those of [`learning::learn_while`] and [`perform`].
 pub fn execute_beside(
     (experiment, run): (&Experiment, &RunOutcome),
     variations: &[Variation],
@@ -58,7 +58,7 @@ fn execute_one(
     let learned = if setup.experiment.learning == experiment.learning && dataset == run.dataset {
         Learned { skill: run.skill.clone(), report: run.learning.clone() }
     } else {
-        learning::learn(&dataset, &setup.experiment.learning, setup.experiment.seed)?
+        learning::learn_while(&dataset, &setup.experiment.learning, setup.experiment.seed, &|| progress.may_go_on())?
     };
     let outcome = perform(&setup, &dataset, &learned, History::default(), progress)?;
     Ok(Beside { name: variation.name.clone(), changes: variation.changes.clone(), outcome })
