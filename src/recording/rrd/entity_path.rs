@@ -75,7 +75,7 @@ entities! {
     BASELINE_PATH "world/paths/baseline" "path that plain LWR-DMPs from the same demonstrations generate: they are not told the parameters"
     PLANNED_PATH "world/paths/planned" "path that the skill generates for this setting without any force"
     EXECUTED_PATH "world/paths/executed" "path of the tool: at each step the piece since the step before; the view keeps them all"
-    BESIDE_PATH "world/paths/run_beside/{run}" "path of the tool of something that was executed beside the run, named as in the scenario's [[beside]]"
+    BESIDE_PATH "world/paths/run_beside/{run}" "path of the tool of something that was executed beside the run, as the scenario names it"
     TOOL "world/tool" "pose of the tool frame (grasp centre) at every logged step"
     STATES "world/states" "how far the demonstrations disagree in each state of the motion model, at two standard deviations, coloured by beta"
     ACTIVE_STATE "world/active_state" "the same of the state that is active"
