@@ -18,6 +18,8 @@ pub trait Progress: Sync {
     fn may_go_on(&self) -> bool {
         true
     }
+    /// A lesson has been taught: number `number` of those of the run, counted from 0. Lessons end in any order.
+    fn lesson(&self, _robot: &RobotModel, _number: usize, _lesson: &LessonRecord) {}
     /// The demonstrations have been taught.
     fn taught(&self, _robot: &RobotModel, _lessons: &[LessonRecord]) {}
     /// The skill is learned and its movement planned; `outcome` holds everything that comes before the execution.
