@@ -68,8 +68,8 @@ pub enum CriterionKind {
         /// The largest distance (m): half the width of the hook's pocket, less what the bar needs.
         max_m: f64,
     },
-    /// The objects never push or pull harder on fingers and tool than this, as the engine solved it: through a clamp, and by contact, normal to
-    /// the surfaces, without their friction. Value: the largest force (N).
+    /// The objects never push or pull harder on fingers and tool than this, as the engine solved it: through a clamp and by contacts,
+    /// pressing and rubbing. Value: the largest force (N).
     ToolForce {
         /// Over which time the force is averaged, rounded up to whole logged steps (s); 0: at every engine step. A blow of stiff parts is
         /// over within a step of the engine, so that its force says more about the step than about the blow: its momentum is what counts.

@@ -252,8 +252,8 @@ pub(super) struct Global {
     /// Use this many threads; the result does not depend on it
     #[arg(long, global = true, env = "CPDMP_JOBS", value_name = "N", value_parser = threads)]
     pub jobs: Option<usize>,
-    /// End a run that takes longer than this many seconds with exit code 12: looked at before every step of the simulation and before
-    /// every model and situation of a planar experiment, so that learning a model is finished first; every scenario has its own
+    /// End a run that takes longer than this many seconds with exit code 12: looked at before every step of the simulation,
+    /// every iteration of a model and every pose of a plan; every scenario has its own
     #[arg(long, global = true, env = "CPDMP_TIMEOUT", value_name = "S", value_parser = seconds)]
     pub timeout: Option<Duration>,
     /// Print results for people, as JSON (one document per line), or of `check` as JUnit or as GitHub annotations

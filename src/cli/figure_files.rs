@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::figure::{ArmRun, Figure, arm_compliance, arm_forcing, arm_motion, arm_paths, arm_settings, arm_states, svg};
+use crate::figure::{ArmRun, Figure, arm_compliance, arm_forces, arm_forcing, arm_motion, arm_paths, arm_settings, arm_states, svg};
 use crate::learning::LearningError;
 use crate::report::{OutputError, write_file};
 use crate::simulation::{Experiment, RunOutcome};
@@ -14,6 +14,7 @@ pub(super) type Named = (&'static str, Figure);
 /// The figures of an arm's run. Those that a skill has nothing for, such as states of one without states, are left out.
 pub(super) fn of_arm(run: &ArmRun) -> Result<Vec<Named>, LearningError> {
     let mut figures = vec![("motion", arm_motion(run)), ("compliance", arm_compliance(run)), ("forcing", arm_forcing(run)?)];
+    figures.extend(arm_forces(run).map(|figure| ("forces", figure)));
     figures.extend(arm_paths(run).map(|figure| ("paths", figure)));
     figures.extend(arm_settings(run)?.map(|figure| ("forcing_settings", figure)));
     figures.extend(arm_states(run)?.map(|figure| ("states", figure)));
@@ -24,7 +25,8 @@ pub(super) fn of_arm(run: &ArmRun) -> Result<Vec<Named>, LearningError> {
 pub(super) fn arm_run<'a>(experiment: &'a Experiment, left: &'a RunOutcome) -> Result<ArmRun<'a>, LearningError> {
     let learned = (&left.skill, &left.dataset, &experiment.learning);
     let run = ArmRun::new(title(&experiment.name, experiment.seed), &left.steps, learned, experiment.question())?;
-    Ok(run.in_scene(&experiment.objects, &experiment.parameters))
+    let others = left.beside.iter().map(|one| (one.name.as_str(), &one.outcome.steps[..])).collect();
+    Ok(run.in_scene(&experiment.objects, &experiment.parameters).beside(others))
 }
 
 /// What the figures of a run are called.

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::args::{Format, Global};
 use super::failure::Failure;
 use super::figure_files::{Named, draw, names, of_arm, title};
+use super::files::BESIDE;
 use super::learn::read_skill;
 use super::load::options;
 use super::planar_files;
@@ -16,7 +17,7 @@ use crate::figure::ArmRun;
 use crate::recording::read_step_log;
 use crate::report::Outcome;
 use crate::scenario::{LoadOptions, PlanarRun, Scenario, Work};
-use crate::simulation::Experiment;
+use crate::simulation::{Experiment, StepRecord, Variation};
 
 /// What programs read.
 #[derive(Serialize)]
@@ -54,22 +55,30 @@ fn of_folder(folder: &Path, global: &Global) -> Result<Vec<Named>, Failure> {
     let asked = LoadOptions { asset_roots: options(global).asset_roots, ..LoadOptions::default() };
     let scenario = Scenario::load(&folder.join("scenario.toml"), &asked)?;
     match &scenario.work {
-        Work::Arm(experiment) => stored_arm(folder, experiment),
+        Work::Arm(experiment) => stored_arm(folder, experiment, &scenario.beside),
         Work::Planar(run) => repeated_plane(folder, run),
     }
 }
 
-fn stored_arm(folder: &Path, experiment: &Experiment) -> Result<Vec<Named>, Failure> {
-    let log = folder.join("steps.parquet");
-    let steps = read_step_log(&log).map_err(|error| Failure::new(Outcome::InvalidInput, [error.to_string()]))?;
+fn stored_arm(folder: &Path, experiment: &Experiment, beside: &[Variation]) -> Result<Vec<Named>, Failure> {
+    let steps = read(&folder.join("steps.parquet"))?;
+    // What could not be executed beside the run left nothing.
+    let places = beside.iter().map(|one| (one.name.as_str(), folder.join(BESIDE).join(format!("{}.parquet", one.name))));
+    let others: Vec<(&str, Vec<StepRecord>)> =
+        places.filter(|(_, place)| place.is_file()).map(|(name, place)| Ok((name, read(&place)?))).collect::<Result<_, Failure>>()?;
     let path = folder.join("skill.json");
     let skill = read_skill(&path)?;
     let place = folder.join("demonstrations");
     let dataset = Dataset::read(&place).map_err(|error| Failure::of_data(&place, &error))?;
     let learned = (&skill, &dataset, &experiment.learning);
     let run = ArmRun::new(title(&experiment.name, experiment.seed), &steps, learned, experiment.question());
-    run.and_then(|run| of_arm(&run.in_scene(&experiment.objects, &experiment.parameters)))
+    let others = others.iter().map(|(name, steps)| (*name, &steps[..])).collect();
+    run.and_then(|run| of_arm(&run.in_scene(&experiment.objects, &experiment.parameters).beside(others)))
         .map_err(|error| Failure::of_learning(&path, &error))
+}
+
+fn read(steps: &Path) -> Result<Vec<StepRecord>, Failure> {
+    read_step_log(steps).map_err(|error| Failure::new(Outcome::InvalidInput, [error.to_string()]))
 }
 
 /// A planar experiment takes seconds, and its scenario decides every bit of it.

@@ -13,6 +13,9 @@ use crate::simulation::{Experiment, RunOutcome};
 /// The hashes that a repetition is held against.
 pub(super) const STATE_LOG: &str = "state_hashes.parquet";
 
+/// The folder with the steps of what was executed beside the run.
+pub(super) const BESIDE: &str = "beside";
+
 /// The states from which a repetition can be taken up.
 pub(super) const SNAPSHOTS: &str = "snapshots.bin";
 
@@ -50,6 +53,7 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
     failures.extend(written.err());
     if plan.steps {
         failures.extend(recording::write_step_log(&folder.join("steps.parquet"), left).err().map(|error| error.to_string()));
+        failures.extend(beside(left, &folder.join(BESIDE)).err());
     }
     match figure_files::arm_run(experiment, left).and_then(|run| figure_files::of_arm(&run)) {
         Ok(figures) => failures.extend(figure_files::draw(&figures, &folder.join("figures"))),
@@ -67,6 +71,17 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
         failures.extend(recording::write_recording(&folder.join("recording.rrd"), experiment, left).err().map(|error| error.to_string()));
     }
     failures
+}
+
+/// The steps of every execution beside the run, in a file of its own each.
+fn beside(left: &RunOutcome, folder: &Path) -> Result<(), String> {
+    if !left.beside.is_empty() {
+        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    left.beside.iter().try_for_each(|one| {
+        let place = folder.join(format!("{}.parquet", one.name));
+        recording::write_step_log(&place, &one.outcome).map_err(|error| error.to_string())
+    })
 }
 
 fn manifest(run: &JudgedRun, scenario: &Scenario, started: SystemTime) -> Manifest {

@@ -93,7 +93,7 @@ pub(super) fn of_learning(error: &LearningError) -> Outcome {
 pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
     match error {
         SimulationError::World(WorldError::Diverged { .. }) => Outcome::Diverged,
-        SimulationError::Stopped { .. } => Outcome::TimeLimit,
+        SimulationError::Stopped { .. } | SimulationError::StoppedBefore { .. } => Outcome::TimeLimit,
         SimulationError::CutShort { reason, .. } => outcome_of(reason),
         SimulationError::Learning(error) => of_learning(error),
         SimulationError::Several(errors) => errors.iter().map(outcome_of).max().unwrap_or(Outcome::InvalidInput),

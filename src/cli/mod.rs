@@ -5,6 +5,7 @@
 
 mod args;
 mod beginning;
+mod beside;
 mod changed_scene;
 mod check;
 mod check_motion;

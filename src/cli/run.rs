@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{Format, Global, Run};
+use super::beside::beside;
 use super::files;
 use super::judged_run::judged_run;
 use super::load::{Ready, load_all};
@@ -58,6 +59,7 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     #[cfg(feature = "rerun")]
     let progress = Watched::new(progress, &ready.scenario, folder.staging(), viewer.as_ref().map(Open::address));
     let mut run = judged_run(&ready.scenario, &progress);
+    beside(&mut run, &ready.scenario, &progress);
     if global.deny_warnings {
         run.report.deny_warnings();
     }

@@ -11,7 +11,7 @@ use super::select::select;
 use super::terminal::Terminal;
 use crate::report::Outcome;
 use crate::scenario::{Diagnostic, Scenario, Work};
-use crate::simulation::Setup;
+use crate::simulation::{Setup, Silent};
 
 /// What is known about one scenario.
 #[derive(Serialize)]
@@ -91,7 +91,7 @@ pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outco
     match &scenario.work {
         Work::Planar(planar) => planar.check().map(|()| Vec::new()).map_err(|error| (of_learning(&error), error.to_string())),
         Work::Arm(experiment) => {
-            let checked = Setup::new(experiment).and_then(|setup| Ok((setup.preflight()?, setup)));
+            let checked = Setup::new(experiment).and_then(|setup| Ok((setup.preflight(&Silent)?, setup)));
             let (of_dataset, setup) = checked.map_err(|error| (outcome_of(&error), error.to_string()))?;
             Ok(setup.warnings.iter().map(ToString::to_string).chain(of_dataset).collect())
         }

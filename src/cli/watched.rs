@@ -75,6 +75,10 @@ impl Progress for Watched<'_> {
         self.shown.may_go_on()
     }
 
+    fn lesson(&self, robot: &RobotModel, number: usize, lesson: &LessonRecord) {
+        self.recordings.iter().for_each(|recording| recording.lesson(robot, number, lesson));
+    }
+
     fn taught(&self, robot: &RobotModel, lessons: &[LessonRecord]) {
         self.recordings.iter().for_each(|recording| recording.taught(robot, lessons));
     }

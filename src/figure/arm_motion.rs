@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::arm_run::{ArmRun, Curve, DEVIATIONS, kind_of};
+use super::arm_run::{ArmRun, Curve, DEVIATIONS, kind_of, over_time};
 use super::chart::{Axis, Chart, Figure};
 use super::mark::Mark;
 use crate::learning::TaskSpaceState;
@@ -34,6 +34,7 @@ fn panel(run: &ArmRun, axis: usize) -> Chart {
         chart.marks.extend(run.states.iter().map(|state| ellipse(run, state, of_column, &planned)));
         chart.marks.push(Mark::line("planned", PLANNED, 1.6, planned));
     }
+    chart.marks.extend(run.others(|steps| over_time(steps, |step| step.tool.translation.vector[axis])));
     chart.marks.push(Mark::line("executed", EXECUTED, 1.6, run.executed(|step| step.tool.translation.vector[axis])));
     chart
 }

@@ -8,6 +8,7 @@ use super::mark::{Mark, Symbol};
 use crate::math::covariance_outline;
 use crate::palette::BLACK;
 use crate::palette::meaning::{EXECUTED, PLANNED, TAUGHT};
+use crate::simulation::StepRecord;
 
 /// Width and height of a panel (pt).
 const PANEL_PT: [f64; 2] = [340.0, 330.0];
@@ -36,7 +37,9 @@ pub fn arm_paths(run: &ArmRun) -> Option<Figure> {
             chart.marks.push(Mark::area(legend, color, 0.15, outline));
         }
         chart.marks.push(Mark::line("planned", PLANNED, 1.6, across(&planned[axes[0]], &planned[axes[1]])));
-        let executed: Curve = run.steps.iter().map(|step| axes.map(|axis| step.tool.translation.vector[axis])).collect();
+        let path = |steps: &[StepRecord]| steps.iter().map(|step| axes.map(|axis| step.tool.translation.vector[axis])).collect::<Curve>();
+        chart.marks.extend(run.others(path));
+        let executed = path(run.steps);
         let start = executed.first().copied();
         chart.marks.push(Mark::line("executed", EXECUTED, 1.6, executed));
         let arcs = run.arcs.iter().map(|arc| arc.iter().map(|place| axes.map(|axis| place[axis])).collect());

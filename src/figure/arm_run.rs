@@ -5,7 +5,7 @@ use nalgebra::{DVector, Point3};
 use crate::demonstration::{Dataset, Trajectory};
 use crate::learning::{ExecutionSettings, LearningError, LearningSettings, Skill, TaskSpaceState, generate, task_space_states};
 use crate::palette::Rgb;
-use crate::palette::meaning::{COMPLIES, MINIMISES, STIFF};
+use crate::palette::meaning::{BESIDE, COMPLIES, MINIMISES, STIFF};
 use crate::simulation::{StepRecord, skill_duration_s};
 use crate::world::{Object, ObjectKind, Parameters, door_turn, support_height_m};
 
@@ -41,6 +41,8 @@ pub struct ArmRun<'a> {
     plan: Trajectory,
     /// Its states in the setting, which comply as the coupling says; none for the baseline.
     pub(super) states: Vec<TaskSpaceState>,
+    /// What was executed beside it, each with its name.
+    pub(super) beside: Vec<(&'a str, &'a [StepRecord])>,
     /// Ways on which doors of the scene lead their handles in use (m, world).
     pub(super) arcs: Vec<Vec<Point3<f64>>>,
 }
@@ -63,7 +65,7 @@ impl<'a> ArmRun<'a> {
         let plan = generate(skill, &question, asked_s / DRAWN_SAMPLES as f64, 1.0)?;
         let states = coupled(task_space_states(skill, &question)?, &question)?;
         let duration_s = skill_duration_s(steps).unwrap_or_else(|| plan.duration_s());
-        Ok(Self { name, steps, skill, dataset, learning, question, duration_s, plan, states, arcs: Vec::new() })
+        Ok(Self { name, steps, skill, dataset, learning, question, duration_s, plan, states, beside: Vec::new(), arcs: Vec::new() })
     }
 
     /// The same in a scene of `objects`, of which a figure shows where its doors lead.
@@ -71,6 +73,20 @@ impl<'a> ArmRun<'a> {
     pub fn in_scene(mut self, objects: &[Object], parameters: &Parameters) -> Self {
         self.arcs = objects.iter().filter_map(|object| handle_arc(object, objects, parameters)).collect();
         self
+    }
+
+    /// The same beside other executions, each with its name.
+    #[must_use]
+    pub fn beside(self, others: Vec<(&'a str, &'a [StepRecord])>) -> Self {
+        Self { beside: others, ..self }
+    }
+
+    /// What stands beside the run as lines: `points` of its records, in its colour, under its name.
+    pub(super) fn others(&self, points: impl Fn(&[StepRecord]) -> Curve) -> impl Iterator<Item = Mark> {
+        let line = move |(index, (name, steps)): (usize, &(&str, &[StepRecord]))| {
+            Mark::line(name, BESIDE[index % BESIDE.len()].0, 1.1, points(steps))
+        };
+        self.beside.iter().enumerate().map(line)
     }
 
     /// The plan along a column; nothing when the skill does not move it.
@@ -94,7 +110,7 @@ impl<'a> ArmRun<'a> {
 
     /// A value of every record over time.
     pub(super) fn executed(&self, value: impl Fn(&StepRecord) -> f64) -> Curve {
-        self.steps.iter().map(|step| [step.time_s, value(step)]).collect()
+        over_time(self.steps, value)
     }
 
     /// The stretches in which the arm complied, as marks.
@@ -106,6 +122,11 @@ impl<'a> ArmRun<'a> {
             .filter_map(|window| Some([window.first()?.time_s, window.last()?.time_s]))
             .map(|ends| Mark::band("the arm complies", COMPLIES, 0.13, ends))
     }
+}
+
+/// A value of every record over time.
+pub(super) fn over_time(steps: &[StepRecord], value: impl Fn(&StepRecord) -> f64) -> Curve {
+    steps.iter().map(|step| [step.time_s, value(step)]).collect()
 }
 
 /// The states with the `beta` with which the run couples them.

@@ -4,6 +4,7 @@
 //! font is needed to draw it; nothing lies outside of the page. With the feature `png`, a picture is made of the drawing. Colours are those of [`crate::palette`].
 
 mod arm_compliance;
+mod arm_forces;
 mod arm_forcing;
 mod arm_motion;
 mod arm_paths;
@@ -28,6 +29,7 @@ mod ticks;
 mod transitions;
 
 pub use arm_compliance::arm_compliance;
+pub use arm_forces::arm_forces;
 pub use arm_forcing::arm_forcing;
 pub use arm_motion::arm_motion;
 pub use arm_paths::arm_paths;

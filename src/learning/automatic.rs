@@ -6,7 +6,7 @@ use super::parameters::mean_and_deviations;
 use super::phmm::{PhmmSettings, Sequence};
 use super::prepare::Prepared;
 use super::selection::{Choices, choose};
-use super::{FeatureMap, LearningError, LearningSettings, ShapingKind};
+use super::{FeatureMap, LearningError, LearningSettings, MayGoOn, ShapingKind};
 use crate::demonstration::{Dataset, ParameterSource};
 
 /// The features of `theta_m`, linear for the baseline, which is blind to parameters, and the settings that go with them.
@@ -66,17 +66,18 @@ pub(super) fn filled_in(
     settings: &LearningSettings,
     features: &FeatureMap,
     seed: u64,
+    may_go_on: MayGoOn,
 ) -> Result<(LearningSettings, [Choices; 2]), LearningError> {
     let mut settings = settings.clone();
     if settings.shaping == ShapingKind::Lwr {
         return Ok((settings, Default::default()));
     }
     let sequences = seen_motion(prepared, &settings, features);
-    let (motion, motion_choices) = choose(&sequences, &settings.motion, settings.motion_selection, seed)?;
+    let (motion, motion_choices) = choose(&sequences, &settings.motion, settings.motion_selection, seed, may_go_on)?;
     let mut force_choices = Choices::default();
     if prepared.iter().all(|p| p.wrench.ncols() > 0) {
         let sequences = seen_force(prepared, &settings, &force_features(prepared, &settings, seed));
-        (settings.force, force_choices) = choose(&sequences, &settings.force, settings.force_selection, seed)?;
+        (settings.force, force_choices) = choose(&sequences, &settings.force, settings.force_selection, seed, may_go_on)?;
     }
     settings.motion = motion;
     Ok((settings, [motion_choices, force_choices]))

@@ -7,9 +7,9 @@ use super::automatic::{filled_in, force_features, motion_features, seen_force, s
 use super::cpdmp::{Compliance, ForceModel, Shaping, spatial_columns, state_spreads};
 use super::dmp::Lwr;
 use super::parts::{forcing_noise, gripper_profile, motion_model, orientation_profile, preparation};
-use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit, refine};
+use super::phmm::{Fit, Phmm, PhmmSettings, Sequence, fit_while, refine};
 use super::prepare::{Prepared, prepare};
-use super::{FeatureMap, LearningError, LearningReport, LearningSettings, ParameterSpace, ShapingKind, Skill, warnings};
+use super::{FOR_EVER, FeatureMap, LearningError, LearningReport, LearningSettings, MayGoOn, ParameterSpace, ShapingKind, Skill, warnings};
 use crate::demonstration::Dataset;
 
 /// A skill and how it came about.
@@ -26,7 +26,15 @@ pub struct Learned {
 /// # Errors
 /// When settings are outside their ranges, the dataset is not usable, or there are too few samples.
 pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Result<Learned, LearningError> {
-    learn_with(dataset, settings, seed, None)
+    learn_while(dataset, settings, seed, FOR_EVER)
+}
+
+/// Learns as [`learn`] while it may go on, which is asked before every iteration of a model.
+///
+/// # Errors
+/// As [`learn`], and [`LearningError::Stopped`] when it may not go on.
+pub fn learn_while(dataset: &Dataset, settings: &LearningSettings, seed: u64, may_go_on: MayGoOn) -> Result<Learned, LearningError> {
+    learn_with(dataset, settings, (seed, None), may_go_on)
 }
 
 /// Learns a skill whose models start from those of `first`, and from nothing else; their numbers of states are kept. With `tolerance = 0`
@@ -37,10 +45,17 @@ pub fn learn(dataset: &Dataset, settings: &LearningSettings, seed: u64) -> Resul
 pub fn learn_from(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: &Skill) -> Result<Learned, LearningError> {
     first.check()?;
     check_first(dataset, settings, first)?;
-    learn_with(dataset, settings, seed, Some(first))
+    learn_with(dataset, settings, (seed, Some(first)), FOR_EVER)
 }
 
-fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: Option<&Skill>) -> Result<Learned, LearningError> {
+/// Learns from a seed, and from a first skill if there is one.
+fn learn_with(
+    dataset: &Dataset,
+    settings: &LearningSettings,
+    from: (u64, Option<&Skill>),
+    may_go_on: MayGoOn,
+) -> Result<Learned, LearningError> {
+    let (seed, first) = from;
     settings.check()?;
     dataset.check()?;
     let aligned = settings.align.then(|| Alignment::of(dataset)).transpose()?;
@@ -49,14 +64,14 @@ fn learn_with(dataset: &Dataset, settings: &LearningSettings, seed: u64, first: 
     let (features, settings) = motion_features(dataset, &prepared, settings, seed);
     let (settings, [motion_choices, force_choices]) = match first {
         Some(_) => (settings, Default::default()),
-        None => filled_in(&prepared, &settings, &features, seed)?,
+        None => filled_in(&prepared, &settings, &features, seed, may_go_on)?,
     };
     let settings = &settings;
     let mut warnings = warnings::about_data(dataset, &prepared, settings);
     warnings.extend(aligned.as_ref().and_then(|a| a.warning.clone()));
     let (motion, force) = rayon::join(
-        || motion_fit(dataset, &prepared, settings, (&features, seed), first),
-        || force_fit(dataset, &prepared, settings, seed, first),
+        || motion_fit(dataset, &prepared, settings, &features, from, may_go_on),
+        || force_fit(dataset, &prepared, settings, from, may_go_on),
     );
     let ((shaping, motion_fit, compliance), force) = (motion?, force?);
     let (mut motion, ends) = motion_model(dataset, &prepared, settings, shaping, features)?;
@@ -96,8 +111,9 @@ fn motion_fit(
     dataset: &Dataset,
     prepared: &[Prepared],
     settings: &LearningSettings,
-    (features, seed): (&FeatureMap, u64),
-    first: Option<&Skill>,
+    features: &FeatureMap,
+    (seed, first): (u64, Option<&Skill>),
+    may_go_on: MayGoOn,
 ) -> Result<MotionFit, LearningError> {
     let d = dataset.motion.len();
     if settings.shaping == ShapingKind::Lwr {
@@ -108,7 +124,7 @@ fn motion_fit(
     }
     let sequences = seen_motion(prepared, settings, features);
     let first = first.and_then(|skill| skill.motion.shaping.phmm());
-    let fit = fit_from(first, &sequences, &settings.motion, seed)?;
+    let fit = fit_from(first, &sequences, &settings.motion, seed, may_go_on)?;
     let noise = forcing_noise(prepared).max();
     let spreads = state_spreads(&fit.model, &sequences)?;
     let compliance = Compliance::decide(spreads, &spatial_columns(&dataset.motion), &settings.compliance, noise);
@@ -119,8 +135,8 @@ fn force_fit(
     dataset: &Dataset,
     prepared: &[Prepared],
     settings: &LearningSettings,
-    seed: u64,
-    first: Option<&Skill>,
+    (seed, first): (u64, Option<&Skill>),
+    may_go_on: MayGoOn,
 ) -> Result<Option<(ForceModel, Fit)>, LearningError> {
     if dataset.wrench.is_empty() || settings.shaping == ShapingKind::Lwr {
         return Ok(None);
@@ -128,7 +144,7 @@ fn force_fit(
     let features = force_features(prepared, settings, seed);
     let sequences = seen_force(prepared, settings, &features);
     let first = first.and_then(|skill| skill.force.as_ref()).map(|force| &force.phmm);
-    let fit = fit_from(first, &sequences, &settings.force, seed)?;
+    let fit = fit_from(first, &sequences, &settings.force, seed, may_go_on)?;
     let model = ForceModel {
         columns: dataset.wrench.clone(),
         parameters: ParameterSpace::of(dataset.parameters_f(), &thetas(prepared, |p| &p.theta_f)).with_features(features),
@@ -140,10 +156,16 @@ fn force_fit(
 }
 
 /// From the model that was handed in, or from every start of the settings.
-fn fit_from(first: Option<&Phmm>, sequences: &[Sequence], settings: &PhmmSettings, seed: u64) -> Result<Fit, LearningError> {
+fn fit_from(
+    first: Option<&Phmm>,
+    sequences: &[Sequence],
+    settings: &PhmmSettings,
+    seed: u64,
+    may_go_on: MayGoOn,
+) -> Result<Fit, LearningError> {
     match first {
         Some(model) => refine(model, sequences, &PhmmSettings { states: model.states(), ..settings.clone() }),
-        None => fit(sequences, settings, seed),
+        None => fit_while(sequences, settings, seed, may_go_on),
     }
 }
 

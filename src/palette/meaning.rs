@@ -1,6 +1,6 @@
 //! What the colours mean, in figures and recordings alike.
 
-use super::{BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, YELLOW};
+use super::{BLACK, BLUE, BROWN, GREEN, GREY, MAGENTA, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, YELLOW};
 
 /// What was taught.
 pub const TAUGHT: Rgb = GREY;
@@ -10,6 +10,8 @@ pub const PLANNED: Rgb = SKY_BLUE;
 pub const BASELINE: Rgb = BLACK;
 /// What was executed.
 pub const EXECUTED: Rgb = ORANGE;
+/// What was executed beside it, in order, with the colours' names.
+pub const BESIDE: [(Rgb, &str); 2] = [(MAGENTA, "magenta"), (BROWN, "brown")];
 /// A stiff state.
 pub const STIFF: Rgb = GREEN;
 /// A state that complies.

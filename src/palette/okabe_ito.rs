@@ -1,4 +1,5 @@
-//! The colours of M. Okabe and K. Ito, "Color Universal Design" (2008), and a grey for what stands behind.
+//! The colours of M. Okabe and K. Ito, "Color Universal Design" (2008), and a grey for what stands behind. Magenta and
+//! brown, for comparisons, are as bright as each other and darker than orange: they are seen on black and on white.
 
 use super::Rgb;
 
@@ -18,5 +19,9 @@ pub const BLUE: Rgb = Rgb::new(0, 114, 178);
 pub const VERMILION: Rgb = Rgb::new(213, 94, 0);
 /// Reddish purple.
 pub const PURPLE: Rgb = Rgb::new(204, 121, 167);
+/// Magenta.
+pub const MAGENTA: Rgb = Rgb::new(221, 52, 151);
+/// Brown.
+pub const BROWN: Rgb = Rgb::new(160, 100, 50);
 /// Grey, for what stands behind the data.
 pub const GREY: Rgb = Rgb::new(150, 150, 150);

@@ -4,7 +4,6 @@
 //! LWR-DMP is given the new goal, but its forcing term is the mean of all demonstrations: the whole path leans to the left, and hits the
 //! obstacle.
 
-use super::patience::{MayGoOn, go_on};
 use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::{
     COLUMNS, Case, Ellipse, Guidance, HandPath, HandSettings, Ideal, LearnedSkill, Method, PlanarOutcome, Side, demonstrated_forcing,
@@ -12,7 +11,7 @@ use super::{
 };
 use crate::demonstration::{Dataset, ParameterSource, Parameters};
 use crate::learning::phmm::PhmmSettings;
-use crate::learning::{LearningError, LearningSettings, SettingFault, ShapingKind, Skill, learn};
+use crate::learning::{LearningError, LearningSettings, MayGoOn, SettingFault, ShapingKind, Skill, go_on, learn_while};
 
 /// The task and how it is taught and learned.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,7 +130,7 @@ fn theta(goal_x_m: f64) -> Parameters {
     vec![("goal_x_m".to_owned(), goal_x_m)]
 }
 
-/// The experiment: the same settings and seed give the same outcome. `may_go_on` is asked before each model and each situation.
+/// The experiment: the same settings and seed give the same outcome. `may_go_on` is asked before each model and each of its iterations, and before each situation.
 ///
 /// # Errors
 /// When settings are outside their ranges or make a dataset that cannot be learned from, or it may not go on.
@@ -141,7 +140,7 @@ pub fn obstacle_avoidance(settings: &ObstacleAvoidanceSettings, seed: u64, may_g
     let with = |shaping: ShapingKind| LearningSettings { shaping, ..settings.learning.clone() };
     let learned = |method: Method, shaping: ShapingKind| {
         go_on(may_go_on, || format!("{} was learned", method.title()))?;
-        learn(&dataset, &with(shaping), seed)
+        learn_while(&dataset, &with(shaping), seed, may_go_on)
     };
     let (cpdmp, lwr) = rayon::join(|| learned(Method::Cpdmp, ShapingKind::Phmm), || learned(Method::LwrDmp, ShapingKind::Lwr));
     let (cpdmp, lwr) = (cpdmp?, lwr?);

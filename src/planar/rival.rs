@@ -9,8 +9,8 @@ use super::reproduction::SAMPLES;
 use super::two_sided_settings::TwoSidedObstacleSettings;
 use super::{COLUMNS, Guidance, Method, ModelReport, Side};
 use crate::demonstration::Trajectory;
-use crate::learning::LearningError;
-use crate::learning::tpgmm::{Frame, FramedSequence, TpGmm, fit};
+use crate::learning::tpgmm::{Frame, FramedSequence, TpGmm, fit_while};
+use crate::learning::{LearningError, MayGoOn};
 
 /// The mixture of one guidance.
 pub(super) struct Rival {
@@ -22,6 +22,7 @@ impl Rival {
         settings: &TwoSidedObstacleSettings,
         guidance: Guidance,
         seed: u64,
+        may_go_on: MayGoOn,
     ) -> Result<(Self, ModelReport), LearningError> {
         let dataset = settings.dataset(Method::TpGmm, guidance, seed)?;
         let situations = settings.shown_situations();
@@ -30,7 +31,7 @@ impl Rival {
             let told = (guidance != Guidance::WithoutSide).then_some(*side);
             Ok(FramedSequence { values: over_the_phase(&learned)?, frames: frames(settings, *half_width, told)? })
         });
-        let fitted = fit(&sequences.collect::<Result<Vec<_>, LearningError>>()?, &settings.tpgmm, seed)?;
+        let fitted = fit_while(&sequences.collect::<Result<Vec<_>, LearningError>>()?, &settings.tpgmm, seed, may_go_on)?;
         let report = ModelReport {
             method: Method::TpGmm,
             guidance,

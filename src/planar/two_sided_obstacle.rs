@@ -5,7 +5,6 @@
 
 use nalgebra::DVector;
 
-use super::patience::{MayGoOn, go_on};
 use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::rival::Rival;
 use super::two_sided_settings::TwoSidedObstacleSettings;
@@ -16,7 +15,7 @@ use super::{
 use crate::demonstration::Parameters;
 use crate::learning::cpdmp::{Compliance, Shaping};
 use crate::learning::phmm::{Phmm, StateChain, TransitionGraph};
-use crate::learning::{LearningError, Skill, learn};
+use crate::learning::{LearningError, MayGoOn, Skill, go_on, learn_while};
 
 /// What was learned from one way of telling the task.
 struct Learned {
@@ -36,7 +35,7 @@ impl Learned {
     }
 }
 
-/// The experiment: the same settings and seed give the same outcome. `may_go_on` is asked before each model and each situation.
+/// The experiment: the same settings and seed give the same outcome. `may_go_on` is asked before each model and each of its iterations, and before each situation.
 ///
 /// # Errors
 /// When settings are outside their ranges or make a dataset that cannot be learned from, or it may not go on.
@@ -83,12 +82,12 @@ fn with_side(settings: &TwoSidedObstacleSettings, seed: u64, may_go_on: MayGoOn)
     let (mut skills, mut models) = (Vec::new(), Vec::new());
     for method in [Method::Cpdmp, Method::CpdmpProduct] {
         may_learn(method, may_go_on)?;
-        let learned = learn(&settings.dataset(method, Guidance::WithSide, seed)?, &settings.learning, seed)?;
+        let learned = learn_while(&settings.dataset(method, Guidance::WithSide, seed)?, &settings.learning, seed, may_go_on)?;
         models.push(model_report(method, Guidance::WithSide, &learned.report, 0));
         skills.push((method, None, learned.skill));
     }
     may_learn(Method::TpGmm, may_go_on)?;
-    let (rival, report) = Rival::learned(settings, Guidance::WithSide, seed)?;
+    let (rival, report) = Rival::learned(settings, Guidance::WithSide, seed, may_go_on)?;
     models.push(report);
     Ok(Learned { guidance: Guidance::WithSide, skills, rival, models, transitions: None })
 }
@@ -96,7 +95,7 @@ fn with_side(settings: &TwoSidedObstacleSettings, seed: u64, may_go_on: MayGoOn)
 fn without_side(settings: &TwoSidedObstacleSettings, seed: u64, may_go_on: MayGoOn) -> Result<Learned, LearningError> {
     let guidance = Guidance::WithoutSide;
     may_learn(Method::Cpdmp, may_go_on)?;
-    let learned = learn(&settings.dataset(Method::Cpdmp, guidance, seed)?, &settings.learning_without_side, seed)?;
+    let learned = learn_while(&settings.dataset(Method::Cpdmp, guidance, seed)?, &settings.learning_without_side, seed, may_go_on)?;
     let mut models = vec![model_report(Method::Cpdmp, guidance, &learned.report, 0)];
     let mut skills = vec![(Method::Cpdmp, None, learned.skill.clone())];
     let mut transitions = None;
@@ -107,7 +106,7 @@ fn without_side(settings: &TwoSidedObstacleSettings, seed: u64, may_go_on: MayGo
         transitions = Some(found);
     }
     may_learn(Method::TpGmm, may_go_on)?;
-    let (rival, report) = Rival::learned(settings, guidance, seed)?;
+    let (rival, report) = Rival::learned(settings, guidance, seed, may_go_on)?;
     models.push(report);
     Ok(Learned { guidance, skills, rival, models, transitions })
 }

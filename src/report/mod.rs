@@ -3,6 +3,7 @@
 //! [`RunReport`] is the only source: `report.json` is its serialised form, and the table on the terminal is drawn from it. [`RunFolder`] is
 //! where a run leaves its files: written beside, then renamed, so that there is never half of one.
 
+mod beside_section;
 mod check_report;
 mod check_text;
 mod choice_section;
@@ -30,6 +31,7 @@ mod table;
 mod text;
 mod verdict;
 
+pub use beside_section::BesideReport;
 pub use check_report::{CheckReport, Checked, InputFault};
 pub use check_text::check_text;
 pub use choice_section::{Candidate, ChoiceSection};

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ComparisonReport, Outcome};
+use super::{BesideReport, ComparisonReport, Outcome};
 use super::{planar, sections};
 use crate::check::{Criterion, Place};
 use crate::planar::PlanarOutcome;
@@ -37,6 +37,8 @@ pub struct RunReport {
     pub parameters: Vec<ParameterReport>,
     /// The scenario's questions and their answers.
     pub criteria: Vec<CriterionReport>,
+    /// What was executed beside the run, for comparison. No part of the outcome.
+    pub beside: Vec<BesideReport>,
     /// Every pair of parts that touched.
     pub collisions: Vec<CollisionReport>,
     /// The smallest distance between each part of the robot and each object, and whatever else came near.
@@ -357,6 +359,7 @@ impl RunReport {
             robot: None,
             parameters: Vec::new(),
             criteria: Vec::new(),
+            beside: Vec::new(),
             collisions: Vec::new(),
             clearance: Vec::new(),
             comparison: None,

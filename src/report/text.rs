@@ -1,6 +1,7 @@
 //! The report for people: what was asked, what came of it, what touched, what it took.
 
 use super::Outcome;
+use super::beside_section;
 use super::comparison;
 use super::run_report::{CriterionReport, RunReport};
 use super::table::figure;
@@ -19,6 +20,7 @@ pub fn text(report: &RunReport) -> String {
         lines.extend(criteria(&report.criteria));
         lines.push(String::new());
     }
+    lines.extend(beside_section::lines(&report.criteria, &report.beside));
     if let Some(comparison) = &report.comparison {
         lines.extend(comparison::table(comparison));
         lines.push(String::new());

@@ -5,8 +5,19 @@ use super::fault::{Code, Fault};
 use super::tree::{Node, Value};
 
 /// Tables of an arm, its world and its person.
-const OF_ARMS: [&str; 10] =
-    ["parameters", "demonstrations", "robot", "simulation", "object", "teaching", "coupling", "execution", "human", "allowed_contact"];
+const OF_ARMS: [&str; 11] = [
+    "parameters",
+    "demonstrations",
+    "robot",
+    "simulation",
+    "object",
+    "teaching",
+    "coupling",
+    "execution",
+    "human",
+    "allowed_contact",
+    "beside",
+];
 
 /// Keys of the learning that planar experiments decide themselves.
 const DECIDED: [&str; 5] = ["theta_m", "theta_f", "space", "shaping", "lwr_ends"];

@@ -17,6 +17,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     unique_names(scenario, "object", &mut faults);
     unique_names(scenario, "criterion", &mut faults);
     unique_names(scenario, "allowed_contact", &mut faults);
+    unique_names(scenario, "beside", &mut faults);
     references(scenario, &mut faults);
     square_cabinets(scenario, &mut faults);
     handles_on_doors(scenario, &mut faults);

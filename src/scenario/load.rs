@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
+use super::beside;
 use super::build;
 use super::build_criteria;
 use super::build_planar;
@@ -22,6 +23,7 @@ use super::source::Sources;
 use super::tree::{Node, Value};
 use super::work::Work;
 use crate::check::{AllowedContact, CriterionSpec};
+use crate::simulation::Variation;
 
 /// A scenario file, checked: everything in it makes sense on its own and together.
 #[derive(Clone, Debug)]
@@ -30,6 +32,8 @@ pub struct Scenario {
     pub work: Work,
     /// What the run must show.
     pub criteria: Vec<CriterionSpec>,
+    /// What is executed beside it.
+    pub beside: Vec<Variation>,
     /// Contacts that it allows beyond those that every scene allows.
     pub allowed_contacts: Vec<AllowedContact>,
     /// Where its parts were typed.
@@ -89,17 +93,25 @@ impl Scenario {
     pub fn load(path: &Path, options: &LoadOptions) -> Result<Self, InvalidScenario> {
         let mut sources = Sources::default();
         let mut faults = Vec::new();
-        let filled = layered(path, options, &mut sources, &mut faults).map(|(tree, roots)| fill(tree, &sources, &roots, &mut faults));
+        let layers = layered(path, options, &mut sources, &mut faults);
+        let (filled, beside) = layers
+            .map(|(tree, roots)| {
+                let filled = fill(tree.clone(), &sources, &roots, &mut faults);
+                let beside = beside::variations(&tree, &filled, &mut sources, &roots, &mut faults);
+                (filled, beside)
+            })
+            .unzip();
         if options.lenient {
             tolerate_unknown_keys(&mut faults);
         }
         if options.deny_warnings {
             deny_warnings(&mut faults);
         }
-        Self::of(filled, faults, &sources)
+        let scenario = Self::of(filled, faults, &sources)?;
+        Ok(Self { beside: beside.unwrap_or_default(), ..scenario })
     }
 
-    /// The scenario of a filled tree, unless there is none or something is wrong with it. What it varies in sweeps is left aside.
+    /// The scenario of a filled tree, unless there is none or something is wrong with it. What varies in sweeps or beside it is left aside.
     pub(super) fn of(filled: Option<Node>, faults: Vec<Fault>, sources: &Sources) -> Result<Self, InvalidScenario> {
         let diagnostics = diagnose(faults, sources);
         match filled {
@@ -108,6 +120,7 @@ impl Scenario {
                 Ok(Self {
                     work: work(&filled),
                     criteria: build_criteria::criteria(&filled),
+                    beside: Vec::new(),
                     allowed_contacts: build_criteria::allowed_contacts(&filled),
                     places: Places::of(&filled, sources),
                     recording: build::recording(&filled),

@@ -5,6 +5,7 @@
 //! what no single key can tell. Only then is it turned into the settings of the rooms below. Every stage goes on after a fault, so that one
 //! pass tells them all.
 
+mod beside;
 mod build;
 mod build_criteria;
 mod build_learning;

@@ -11,7 +11,7 @@ use super::schema_criteria::CRITERION;
 use super::schema_learning::{COUPLING, LEARNING};
 use super::schema_planar::PLANAR;
 use super::schema_scene::{ALLOWED_CONTACT, OBJECT};
-use super::schema_sweep::SWEEP;
+use super::schema_sweep::{BESIDE, SWEEP};
 
 /// The version of the language that this program reads and writes.
 pub(super) const SCHEMA_VERSION: i64 = 1;
@@ -37,6 +37,8 @@ pub(super) const SCENARIO: Shape = Shape::plain(&[
     Key::new("recording", Section(RECORDING), "what is written to the run folder").or_empty(),
     Key::new("allowed_contact", List(ALLOWED_CONTACT), "contacts that are no collisions").or_empty(),
     Key::new("criterion", List(CRITERION), "what the run must show").or_empty(),
+    Key::new("beside", List(BESIDE), "what is executed besides, after the same lessons in the same scene, to be held against the run")
+        .or_empty(),
     Key::new("sweep", List(SWEEP), "what `cpdmp sweep` varies from run to run; a single run leaves it aside").or_empty(),
 ]);
 

@@ -61,7 +61,7 @@ pub(super) const CRITERION: Shape = Shape {
                 Key::new(
                     "max_n",
                     Number(within("N", 0.0, 1000.0)),
-                    "largest force of the objects on fingers and tool: of a clamp, and of contacts normal to the surfaces, without their friction",
+                    "largest force of the objects on fingers and tool: of a clamp, and of contacts, pressing and rubbing",
                 ),
             ],
         },

@@ -1,6 +1,6 @@
-//! The table of keys of `[[sweep]]`: what varies from run to run.
+//! The tables of keys of `[[sweep]]`, what varies from run to run, and `[[beside]]`, what varies beside one run.
 
-use super::key::Kind::{Count, Ranges, Tag, Text, Values};
+use super::key::Kind::{Count, Name, Ranges, Tag, Text, Texts, Values};
 use super::key::{Key, Shape, Variant};
 
 /// Most values of one entry of a sweep.
@@ -27,3 +27,9 @@ pub(super) const SWEEP: Shape = Shape {
         Variant { kind: "repeat", keys: &[Key::new("count", Count(1, MOST), "how many seeds, from the scenario's seed on")] },
     ],
 };
+
+/// One execution beside that of the scenario.
+pub(super) const BESIDE: Shape = Shape::plain(&[
+    Key::new("name", Name, "its name in report, recording and figures"),
+    Key::new("set", Texts, "what it changes: KEY=VALUE each, as for `--set`, of learning, coupling, execution and human.help"),
+]);

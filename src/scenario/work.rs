@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use crate::demonstration::Dataset;
-use crate::learning::LearningError;
+use crate::learning::{LearningError, MayGoOn};
 use crate::planar::{
-    Guidance, MayGoOn, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
+    Guidance, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
 };
 use crate::simulation::{DemonstrationSource, Experiment};
 

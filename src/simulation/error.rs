@@ -78,6 +78,12 @@ pub enum SimulationError {
         /// How far the world was (s).
         time_s: f64,
     },
+    /// Whoever listens to the run did not let it go on before something was simulated.
+    #[error("the time limit was reached before {next}: allow more, or ask for less")]
+    StoppedBefore {
+        /// What would have come next.
+        next: String,
+    },
     /// The execution ended before its time, and left something behind.
     #[error("{reason}")]
     CutShort {

@@ -3,6 +3,7 @@
 //! Data flows one way: an [`Experiment`] goes in, a [`RunOutcome`] comes out, and everything told about a step is a [`StepRecord`].
 
 mod arm_motion;
+mod beside;
 mod changed_scene;
 mod error;
 mod execution;
@@ -27,6 +28,7 @@ mod teaching;
 mod trace;
 
 pub use arm_motion::{ArmMotion, Reach};
+pub use beside::{Beside, Variation, execute_beside};
 pub use changed_scene::moved_otherwise;
 pub use error::SimulationError;
 pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings, TeachingPlan, Waypoint};

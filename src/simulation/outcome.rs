@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{LessonRecord, Snapshots, StepRecord, WorldTrace};
+use super::{Beside, LessonRecord, Snapshots, StepRecord, WorldTrace};
 use crate::demonstration::{Dataset, Trajectory};
 use crate::learning::{LearningReport, Skill};
 use crate::robot::{Finding, RobotModel};
@@ -47,6 +47,8 @@ pub struct RunOutcome {
     pub snapshots: Snapshots,
     /// The setting's objects at the end of the run.
     pub final_objects: Vec<FinalObject>,
+    /// What was executed beside the run, to be held against it; not part of its hash.
+    pub beside: Vec<Beside>,
 }
 
 /// Where an object ended.

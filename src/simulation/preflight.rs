@@ -6,7 +6,7 @@ use super::guide_path::GuidePath;
 use super::setup::Setup;
 use super::space::{PLACE_COLUMNS, first_pose};
 use super::teaching::settings_of;
-use super::{DemonstrationSource, MotionSpace, SimulationError, TeachingPlan};
+use super::{DemonstrationSource, MotionSpace, Progress, SimulationError, TeachingPlan};
 use crate::control::WRENCH_COLUMNS;
 use crate::demonstration::{Dataset, Demonstration};
 use crate::learning::cpdmp::ForceCoupling;
@@ -21,9 +21,9 @@ impl Setup {
     ///
     /// # Errors
     /// The postures that are wrong, and the first other thing that is.
-    pub fn preflight(&self) -> Result<Vec<String>, SimulationError> {
+    pub fn preflight(&self, progress: &dyn Progress) -> Result<Vec<String>, SimulationError> {
         let scene = match &self.experiment.demonstrations {
-            DemonstrationSource::Teach(plan) => self.lessons_can_be_led(plan).map(|()| Vec::new()),
+            DemonstrationSource::Teach(plan) => self.lessons_can_be_led(plan, progress).map(|()| Vec::new()),
             DemonstrationSource::Dataset(folder) => self.dataset_can_be_used(folder),
         };
         match (self.postures_within_limits(), scene) {
@@ -103,20 +103,26 @@ impl Setup {
     }
 
     /// Goes every lesson's way in thought, and the one that a lesson would take in the setting of the execution, and builds their worlds.
-    fn lessons_can_be_led(&self, plan: &TeachingPlan) -> Result<(), SimulationError> {
+    fn lessons_can_be_led(&self, plan: &TeachingPlan, progress: &dyn Progress) -> Result<(), SimulationError> {
         let lessons = settings_of(plan, &self.experiment.parameters);
         for (number, parameters) in lessons.iter().enumerate() {
-            self.can_be_led(plan, parameters, number as u64, &format!("lesson {}", number + 1))?;
+            self.can_be_led(plan, parameters, (number as u64, &format!("lesson {}", number + 1)), progress)?;
         }
         let exact = TeachingPlan { position_spread_m: 0.0, timing_spread: 0.0, ..plan.clone() };
-        self.can_be_led(&exact, &self.experiment.parameters, 0, "a lesson in the setting of the execution")
+        self.can_be_led(&exact, &self.experiment.parameters, (0, "a lesson in the setting of the execution"), progress)
     }
 
-    fn can_be_led(&self, plan: &TeachingPlan, parameters: &Parameters, number: u64, whose: &str) -> Result<(), SimulationError> {
+    fn can_be_led(
+        &self,
+        plan: &TeachingPlan,
+        parameters: &Parameters,
+        (number, whose): (u64, &str),
+        progress: &dyn Progress,
+    ) -> Result<(), SimulationError> {
         self.stands(parameters)?;
         let mut variation = math::stream(self.experiment.seed, "human", number);
         let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
-        let start = self.can_go(plan, &path, whose)?;
+        let start = self.can_go(plan, &path, whose, progress)?;
         starts_apart(self.world(parameters, &start, false), whose).map(|_| ())
     }
 

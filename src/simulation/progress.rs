@@ -13,10 +13,13 @@ pub trait Progress: Sync {
     fn note(&self, text: &str);
     /// Seconds on the listener's clock, for saying how long things took: this room has none.
     fn elapsed_s(&self) -> f64;
-    /// Whether the run may go on; asked before every engine step. A run that may not ends with [`super::SimulationError::Stopped`].
+    /// Whether the run may go on; asked before every engine step, every iteration of a model and every pose of a plan that is looked
+    /// at. A run that may not ends with [`super::SimulationError::Stopped`] or another error that says how far it was; once not, never again.
     fn may_go_on(&self) -> bool {
         true
     }
+    /// A lesson has been taught: number `number` of those of the run, counted from 0. Lessons end in any order.
+    fn lesson(&self, _robot: &RobotModel, _number: usize, _lesson: &LessonRecord) {}
     /// The demonstrations have been taught.
     fn taught(&self, _robot: &RobotModel, _lessons: &[LessonRecord]) {}
     /// The skill is learned and its movement planned; `outcome` holds everything that comes before the execution.

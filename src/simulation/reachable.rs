@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Translation3};
 use super::guide_path::GuidePath;
 use super::setup::{Setup, unreachable};
 use super::space::PLACE_COLUMNS;
-use super::{MotionSpace, SimulationError, TeachingPlan};
+use super::{MotionSpace, Progress, SimulationError, TeachingPlan};
 use crate::demonstration::Trajectory;
 use crate::world::pointing_down;
 
@@ -28,11 +28,17 @@ impl Setup {
     ///
     /// # Errors
     /// At the first pose that the arm cannot reach, or only in another posture.
-    pub(super) fn can_go(&self, plan: &TeachingPlan, path: &GuidePath, whose: &str) -> Result<Vec<f64>, SimulationError> {
+    pub(super) fn can_go(
+        &self,
+        plan: &TeachingPlan,
+        path: &GuidePath,
+        whose: &str,
+        progress: &dyn Progress,
+    ) -> Result<Vec<f64>, SimulationError> {
         let start = self.posture(&path.at(0.0).pose, &place_name(plan, path, 0.0, whose), MOVE)?;
         let times_s = (1..=(plan.duration_s / SAMPLE_S).ceil() as usize).map(|k| (k as f64 * SAMPLE_S).min(plan.duration_s));
         let poses = times_s.map(|time_s| (time_s, path.at(time_s).pose));
-        self.follow(&start, poses, &|time_s| place_name(plan, path, time_s, whose), MOVE)?;
+        self.follow(&start, poses, (&|time_s| place_name(plan, path, time_s, whose), MOVE), progress)?;
         Ok(start)
     }
 
@@ -40,7 +46,7 @@ impl Setup {
     ///
     /// # Errors
     /// At the first pose that the arm cannot reach, or only in another posture; of a plan in joint space at the first joint beyond a limit.
-    pub fn can_follow(&self, plan: &Trajectory) -> Result<(), SimulationError> {
+    pub fn can_follow(&self, plan: &Trajectory, progress: &dyn Progress) -> Result<(), SimulationError> {
         let last = plan.samples() - 1;
         let every = (SAMPLE_S / plan.duration_s() * last as f64).round().max(1.0) as usize;
         let rows = (0..last).step_by(every).chain([last]);
@@ -58,20 +64,24 @@ impl Setup {
             (plan.times_s()[row], Isometry3::from_parts(place, turn))
         };
         let start = self.posture(&pose(0).1, "the skill's start", ASK_NEARER)?;
-        self.follow(&start, rows.map(pose), &name, ASK_NEARER)
+        self.follow(&start, rows.map(pose), (&name, ASK_NEARER), progress)
     }
 
-    /// Solves timed poses one after the other from the posture `start` (rad); `name` says what a pose is called in an error.
+    /// Solves timed poses one after the other from the posture `start` (rad); `name` says what a pose is called in an error, and
+    /// `help` what to do. Whether it may go on is asked before each.
     fn follow(
         &self,
         start: &[f64],
         poses: impl Iterator<Item = (f64, Isometry3<f64>)>,
-        name: &dyn Fn(f64) -> String,
-        help: &'static str,
+        (name, help): (&dyn Fn(f64) -> String, &'static str),
+        progress: &dyn Progress,
     ) -> Result<(), SimulationError> {
         let mut arm = self.arm();
         let (mut q, mut before) = (start.to_vec(), start.to_vec());
         for (time_s, pose) in poses {
+            if !progress.may_go_on() {
+                return Err(SimulationError::StoppedBefore { next: format!("{} was looked at", name(time_s)) });
+            }
             let outcome = arm.reach_on(&pose, &mut q);
             if !outcome.converged {
                 return Err(unreachable(&arm, &outcome, &q, &name(time_s), help));

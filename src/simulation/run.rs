@@ -21,11 +21,11 @@ use crate::learning::{self, Learned, Skill};
 /// When the robot, the demonstrations or a pose cannot be used, nothing can be learned, or the simulation diverges.
 pub fn run(experiment: &Experiment, progress: &dyn Progress) -> Result<RunOutcome, SimulationError> {
     let setup = Setup::new(experiment)?;
-    setup.preflight()?;
+    setup.preflight(progress)?;
     let (dataset, mut history) = demonstrate(&setup, progress)?;
     let started = progress.elapsed_s();
     progress.phase("learn", 0);
-    let learned = learning::learn(&dataset, &experiment.learning, experiment.seed)?;
+    let learned = learning::learn_while(&dataset, &experiment.learning, experiment.seed, &|| progress.may_go_on())?;
     history.close("learn", 0, started, progress);
     perform(&setup, &dataset, &learned, history, progress)
 }
@@ -61,7 +61,7 @@ pub fn perform(
 ) -> Result<RunOutcome, SimulationError> {
     let started = progress.elapsed_s();
     let mut outcome = planned(setup, dataset, learned, std::mem::take(&mut history.lessons))?;
-    setup.can_follow(&outcome.plan)?;
+    setup.can_follow(&outcome.plan, progress)?;
     progress.planned(&outcome);
     progress.phase("execute", 0);
     let executed = execute(setup, &learned.skill, None, progress)?;
@@ -113,6 +113,7 @@ fn planned(setup: &Setup, dataset: &Dataset, learned: &Learned, lessons: Vec<Les
         traces: Vec::new(),
         snapshots: Snapshots::new(),
         final_objects: Vec::new(),
+        beside: Vec::new(),
     })
 }
 
@@ -166,20 +167,23 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
     let started = progress.elapsed_s();
     let each = setup.steps(plan.duration_s) + 1;
     progress.phase("teach", each * settings.len() as u64);
-    let mut lessons: Vec<Lesson> = settings
+    let taught: Vec<(Lesson, LessonRecord)> = settings
         .par_iter()
         .enumerate()
         .map(|(number, parameters)| {
-            let lesson = teach(setup, plan, parameters, number as u64, progress)?;
+            let mut lesson = teach(setup, plan, parameters, number as u64, progress)?;
             progress.advance(lesson.steps);
-            Ok(lesson)
+            let seen = seen(&mut lesson);
+            progress.lesson(&setup.robot, number, &seen);
+            Ok((lesson, seen))
         })
         .collect::<Result<_, SimulationError>>()?;
+    let (mut lessons, seen): (Vec<Lesson>, Vec<LessonRecord>) = taught.into_iter().unzip();
     history.hashes.extend(lessons.iter().map(|lesson| lesson.state_hash));
     history.traces.extend(lessons.iter_mut().filter_map(|l| WorldTrace::of("teach", l.number, std::mem::take(&mut l.trace))));
     history.close("teach", lessons.iter().map(|lesson| lesson.steps).sum(), started, progress);
 
-    history.lessons = lessons.iter_mut().map(seen).collect();
+    history.lessons = seen;
     progress.taught(&setup.robot, &history.lessons);
 
     let started = progress.elapsed_s();

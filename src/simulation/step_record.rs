@@ -45,8 +45,7 @@ pub struct StepRecord {
     pub gripper_opening: f64,
     /// What the person does.
     pub human: AppliedForce,
-    /// Force of the objects on fingers and tool, as the engine solved it: through a clamp, and normal to the surfaces that touch,
-    /// without their friction (N).
+    /// Force of the objects on fingers and tool, as the engine solved it: through a clamp and by contacts, pressing and rubbing (N).
     pub tool_force: Vector3<f64>,
     /// Integral of that force over every engine step since the start (N s).
     pub tool_impulse: Vector3<f64>,

@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
 
+use super::contact_impulse::{impulse_on_second, normal_impulse};
 use super::convert;
 use super::gap::Gap;
 use super::parts::{Owner, Part, Parts};
@@ -55,7 +56,7 @@ pub(super) struct ContactBook {
     pub episodes: Vec<ContactEpisode>,
     /// Bodies of the fingers that touch a movable object in this step, with the object.
     pub grips: Vec<(usize, usize)>,
-    /// Force by the objects on fingers and tool in this step, normal to the surfaces that touch (N, world).
+    /// Force by the objects on fingers and tool in this step, normal to the surfaces that touch and along them (N, world).
     pub tool_force: Vector3<f64>,
 }
 
@@ -66,7 +67,7 @@ impl ContactBook {
         self.tool_force = Vector3::zeros();
         let step = engine.integration_parameters.dt;
         for pair in engine.narrow_phase.contact_pairs() {
-            let force = pair.total_impulse_magnitude() / step;
+            let force = normal_impulse(pair) / step;
             let near = pair.find_deepest_contact().is_some_and(|(_, contact)| contact.dist <= 0.0);
             if force <= 0.0 && !near {
                 continue;
@@ -83,8 +84,7 @@ impl ContactBook {
                 self.grips.push((body, object));
             }
             if let (Owner::Robot { finger: true, .. }, Owner::Object(_)) = (a.1.owner, b.1.owner) {
-                // The engine's impulses are those on the second collider.
-                let on_second = convert::vector_back(pair.total_impulse()) / step;
+                let on_second = impulse_on_second(pair) / step;
                 self.tool_force += if ordered { -on_second } else { on_second };
             }
             // The engine's contacts are those of the step's start: where the parts are now is asked of their shapes.

@@ -4,6 +4,7 @@
 
 mod articulation;
 mod cabinet;
+mod contact_impulse;
 mod contacts;
 mod convert;
 mod door;

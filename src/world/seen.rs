@@ -95,8 +95,8 @@ impl World {
         self.engine.bodies.get(self.objects[object]).map_or(0.0, |body| body.linvel().length())
     }
 
-    /// Force by the objects on fingers and tool in the last step, as the engine solved it: through a clamp, and normal to the surfaces that
-    /// touch, without their friction (N, world).
+    /// Force by the objects on fingers and tool in the last step, as the engine solved it: through a clamp and by contacts, pressing and
+    /// rubbing (N, world).
     pub fn tool_force(&self) -> Vector3<f64> {
         self.contacts.tool_force + self.hook.as_ref().map_or_else(Vector3::zeros, |hook| hook.force)
     }

@@ -72,7 +72,7 @@ fn a_run_that_was_cut_short_ends_its_check_as_it_ended() {
     let early = ["run", "a.toml", "-q", "--timeout", "0.02"];
     let runs = [
         ([&taught[..], &endless[..]].concat(), 12, "time_limit", "`execute`", true),
-        (early.to_vec(), 12, "time_limit", "`teach`", false),
+        (early.to_vec(), 12, "time_limit", "the time limit was reached", false),
         ([&["run", "a.toml", "-q"][..], &unlearned[..]].concat(), 4, "learning_failed", "200 states", false),
     ];
     for (arguments, code, outcome, reason, has_log) in runs {

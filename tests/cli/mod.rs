@@ -1,5 +1,6 @@
 //! The real binary, as a person or a CI job calls it.
 
+mod beside;
 mod check;
 mod check_motion;
 mod check_run;

@@ -28,6 +28,7 @@
 //! | 37 | replay differs, on another version or machine | 13 | `cli::replay::a_run_is_repeated_…`, `…another_version_…`, `…what_differs_…` |
 //! | 38 | the machine's clock | 0 | `runs::rows_34_and_38_…` |
 
+mod beside;
 mod coupling;
 mod extends;
 mod fuzz;

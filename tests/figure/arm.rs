@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use cpdmp::figure::{
-    ArmRun, Chart, Figure, Mark, Shape, arm_compliance, arm_forcing, arm_motion, arm_paths, arm_settings, arm_states, svg,
+    ArmRun, Chart, Figure, Mark, Shape, arm_compliance, arm_forces, arm_forcing, arm_motion, arm_paths, arm_settings, arm_states, svg,
 };
 use cpdmp::learning::cpdmp::{CouplingMode, CouplingSettings};
 use cpdmp::learning::{ExecutionSettings, LearningSettings};
@@ -13,6 +13,7 @@ use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::RunOutcome;
 use nalgebra::{Matrix2, Vector2};
 
+use crate::recording::beside::compared;
 use crate::recording::made_up_run::{COMPLIES, learning_settings, outcome, outcome_of_the_baseline, question};
 
 struct Parts {
@@ -211,4 +212,28 @@ fn every_figure_can_be_drawn_also_for_a_skill_without_states() {
             assert!(svg(&figure).is_ok_and(|text| text.contains("made up, seed 1")), "{}", figure.title);
         }
     }
+}
+
+/// Contract: what was executed beside the run is drawn under its own name, as its records have it, in every figure that is about where the tool
+/// went or what it felt; without it there is nothing to compare.
+#[test]
+fn what_was_executed_beside_the_run_is_drawn_in_a_colour_of_its_own() {
+    let parts = Parts::of(compared());
+    let others = || parts.outcome.beside.iter().map(|one| (one.name.as_str(), &one.outcome.steps[..])).collect();
+    let run = parts.run().beside(others());
+    let (motion, forces) = (arm_motion(&run), arm_forces(&run).expect("there is something to compare"));
+    let paths = arm_paths(&run).expect("the tool moves");
+    for (one, (color, _)) in parts.outcome.beside.iter().zip(meaning::BESIDE) {
+        let steps = &one.outcome.steps;
+        for axis in 0..3 {
+            let places: Vec<[f64; 2]> = steps.iter().map(|step| [step.time_s, step.tool.translation.vector[axis]]).collect();
+            assert_eq!(line(&motion.panels[axis], &one.name), places);
+            let errors: Vec<[f64; 2]> = steps.iter().map(|step| [step.time_s, step.wrench[axis] - step.expected_force[axis]]).collect();
+            assert_eq!(line(&forces.panels[axis], &one.name), errors);
+        }
+        let above: Vec<[f64; 2]> = steps.iter().map(|step| [step.tool.translation.x, step.tool.translation.y]).collect();
+        assert_eq!(line(&paths.panels[0], &one.name), above);
+        assert!(marks(&paths.panels[0], &one.name).iter().all(|mark| mark.color == color));
+    }
+    assert!(arm_forces(&parts.run()).is_none());
 }

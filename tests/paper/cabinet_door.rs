@@ -39,7 +39,7 @@ pub(super) fn arm(scenario: &Scenario) -> &Experiment {
 /// The lessons of a scenario and what is learned from them.
 pub(super) fn lessons(scenario: &Scenario) -> (Dataset, Learned) {
     let setup = Setup::new(arm(scenario)).expect("the robot loads");
-    setup.preflight().expect("the lessons can be led");
+    setup.preflight(&Silent).expect("the lessons can be led");
     let (dataset, _) = demonstrate(&setup, &Silent).expect("demonstrations");
     let learned = learning::learn(&dataset, &arm(scenario).learning, arm(scenario).seed).expect("a skill");
     (dataset, learned)
@@ -239,7 +239,7 @@ fn the_plain_primitive_knows_no_handles() {
 fn what_cannot_be_reached_is_said_before_the_first_step() {
     let refused = |set: &[&str]| {
         let scenario = scenario_with("cabinet_door.toml", set);
-        Setup::new(arm(&scenario)).expect("the robot loads").preflight().expect_err("refused").to_string()
+        Setup::new(arm(&scenario)).expect("the robot loads").preflight(&Silent).expect_err("refused").to_string()
     };
     let far = refused(&["object.cabinet.center_m=[1.3, 0.65]"]);
     assert!(far.starts_with("way-point 1 (at cabinet) of lesson 1 cannot be reached") && far.contains("joint `left_"), "{far}");

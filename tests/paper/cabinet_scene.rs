@@ -1,12 +1,13 @@
 //! Cabinets as parts of a scene: several of them, and what a stored run tells of their doors.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use cpdmp::check::judge;
 use cpdmp::demonstration::{Trajectory, read_trajectory};
 use cpdmp::recording::write_step_log;
 use cpdmp::scenario::{InvalidScenario, LoadOptions, Scenario};
-use cpdmp::simulation::{self, ArmMotion, Setup, Silent, check_motion};
+use cpdmp::simulation::{self, ArmMotion, Progress, Setup, Silent, check_motion};
 use cpdmp::world::{Clearance, ContactEpisode, Object, ObjectKind, Quantity, Solid, nearest_of_each, opening_rad};
 use nalgebra::{DMatrix, Vector2, Vector3};
 
@@ -106,12 +107,44 @@ fn a_plan_that_leads_out_of_reach_is_refused_with_time_and_joint() {
         let values = DMatrix::from_fn(101, 7, |k, column| row(k)[column]);
         Trajectory::new((0..=100).map(|k| 0.05 * f64::from(k)).collect(), columns.clone(), values).expect("a plan")
     };
-    setup.can_follow(&plan(0.02)).expect("within reach");
-    let refused = setup.can_follow(&plan(1.0)).expect_err("out of reach").to_string();
+    setup.can_follow(&plan(0.02), &Silent).expect("within reach");
+    let refused = setup.can_follow(&plan(1.0), &Silent).expect_err("out of reach").to_string();
     assert!(refused.starts_with("the skill's plan at ") && refused.contains(" s cannot be reached: "), "{refused}");
     assert!(refused.contains("joint `left_") && refused.contains("nearer to those that were demonstrated"), "{refused}");
     let time_s: f64 = refused["the skill's plan at ".len()..].split(' ').next().expect("a word").parse().expect("a time");
     assert!(time_s > 0.5 && time_s < 4.5, "{time_s} s: the first metre is not all out of reach, nor all within");
+}
+
+/// Somebody who waits for so many questions.
+struct Patience(AtomicUsize);
+
+impl Progress for Patience {
+    fn phase(&self, _name: &str, _steps: u64) {}
+    fn advance(&self, _steps: u64) {}
+    fn note(&self, _text: &str) {}
+    fn elapsed_s(&self) -> f64 {
+        0.0
+    }
+    fn may_go_on(&self) -> bool {
+        self.0.fetch_update(Ordering::SeqCst, Ordering::SeqCst, |left| left.checked_sub(1)).is_ok()
+    }
+}
+
+/// Contract: looking at plans ends at the first pose at which it may not go on, in the execution and in every lesson.
+#[test]
+fn looking_at_a_plan_stops_when_it_may_not_go_on() {
+    let scenario = scenario_with("cabinet_door.toml", &[]);
+    let setup = Setup::new(arm(&scenario)).expect("the robot loads");
+    let shown = &taught().0.demonstrations[0].trajectory;
+    let looked = |patience: usize| setup.can_follow(shown, &Patience(AtomicUsize::new(patience)));
+    looked(1_000_000).expect("it was shown, so it can be followed");
+    let stopped = looked(7).expect_err("not looked at").to_string();
+    assert!(
+        stopped.contains("the time limit was reached before the skill's plan at 0.3") && stopped.contains(" s was looked at"),
+        "{stopped}"
+    );
+    let stopped = setup.preflight(&Patience(AtomicUsize::new(500))).expect_err("not looked at").to_string();
+    assert!(stopped.contains("the time limit was reached before ") && stopped.contains(" of lesson "), "{stopped}");
 }
 
 /// Contract: a skill that starts inside something is refused before the first step, and it is said that it is the skill's start.

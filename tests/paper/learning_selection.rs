@@ -5,9 +5,10 @@ use cpdmp::demonstration::synthetic::PickAndPlace;
 use cpdmp::demonstration::{Dataset, Demonstration, ParameterSource, Trajectory};
 use cpdmp::learning::phmm::{PhmmSettings, Sequence, Topology, fit};
 use cpdmp::learning::selection::{Choices, Selection, StatesCriterion, StatesSearch, cross_validate, free_parameters, reproduction};
-use cpdmp::learning::{ExecutionSettings, FeatureMap, Features, LearningSettings, generate, learn};
+use cpdmp::learning::{ExecutionSettings, FeatureMap, Features, LearningError, LearningSettings, generate, learn, learn_while};
 use cpdmp::math::{standard_normal, stream};
 use nalgebra::{DMatrix, DVector};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A person's strokes from different places to one goal: an arc, with their own timing, bow and tremor.
 fn strokes(count: usize, seed: u64) -> Dataset {
@@ -96,6 +97,30 @@ fn ridge_and_states_are_chosen_with_their_curves() {
 }
 
 /// Short movements of two columns under these parameters, one row each.
+/// Contract: learning that may not go on ends within an iteration of every model that is at work, whatever it is doing: fitting, or choosing states
+/// and ridge. One that may gives the bits of one that is never asked.
+#[test]
+fn learning_stops_when_it_may_not_go_on() {
+    let dataset = strokes(6, 1);
+    let search = StatesSearch { criterion: StatesCriterion::CrossValidation, min: 3, max: 5 };
+    let chosen = LearningSettings { motion_selection: Selection { states: Some(search), ridge: true }, ..small() };
+    for settings in [small(), chosen] {
+        let asked = AtomicUsize::new(0);
+        let patient = learn_while(&dataset, &settings, 3, &|| asked.fetch_add(1, Ordering::SeqCst) < usize::MAX).expect("learned");
+        assert_eq!(patient.skill.to_json().expect("text"), learn(&dataset, &settings, 3).expect("learned").skill.to_json().expect("text"));
+        let questions = asked.load(Ordering::SeqCst);
+        assert!(questions > 20, "asked {questions} times");
+        for patience in [0, 1, questions / 3, questions - 1] {
+            let asked = AtomicUsize::new(0);
+            let stopped = learn_while(&dataset, &settings, 3, &|| asked.fetch_add(1, Ordering::SeqCst) < patience);
+            assert!(matches!(stopped, Err(LearningError::Stopped { .. })), "after {patience} of {questions} questions");
+            let after = asked.load(Ordering::SeqCst) - patience;
+            // Each of the models that are at work asks once per climb, of which there are five at most.
+            assert!(after <= 40, "{after} questions after the answer was no, of {questions}");
+        }
+    }
+}
+
 fn sequences(thetas: &[&[f64]]) -> Vec<Sequence> {
     let values = |theta: &[f64]| (0..20).flat_map(|t| [f64::from(t) / 19.0, theta[0] * f64::from(t), (0.3 * f64::from(t)).sin()]).collect();
     thetas.iter().map(|theta| Sequence { values: values(theta), dimension: 3, theta: DVector::from_row_slice(theta) }).collect()

@@ -12,7 +12,9 @@ use cpdmp::learning::cpdmp::ForceConvention;
 use cpdmp::learning::{self, Learned};
 use cpdmp::robot::EffortModel;
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
-use cpdmp::simulation::{DemonstrationSource, Experiment, History, RunOutcome, Setup, Silent, demonstrate, perform};
+use cpdmp::simulation::{
+    Beside, DemonstrationSource, Experiment, History, RunOutcome, Setup, Silent, demonstrate, execute_beside, perform,
+};
 use cpdmp::world::SensorSettings;
 
 const G: f64 = 9.81;
@@ -217,4 +219,30 @@ fn a_board_that_lies_higher_is_wiped_as_hard_as_it_was_shown() {
     let uncoupled = judge(&executed(&experiment, &taught), &experiment, &scene.criteria);
     println!("{:.3} N coupled, {:.3} N uncoupled", coupled[0].value, uncoupled[0].value);
     assert!(uncoupled[0].value > 3.0 * coupled[0].value, "{uncoupled:?}");
+}
+
+/// Law: what is executed beside a run is what the scenario of its own with the same changes would do after the same lessons, to the last bit:
+/// nothing of the run it stands beside leaks into it, nor does it change the run.
+#[test]
+fn what_is_executed_beside_the_run_is_what_the_counterfactuals_do() {
+    let (dataset, learned) = taught();
+    let coupled = scenario("push_object.toml");
+    let experiment = arm("push_object.toml");
+    let run = executed(&experiment, taught());
+    let beside: Vec<Beside> =
+        execute_beside((&experiment, &run), &coupled.beside, &Silent).into_iter().map(|one| one.expect("it is executed")).collect();
+    assert_eq!(beside.iter().map(|one| one.name.as_str()).collect::<Vec<_>>(), ["uncoupled", "blind"]);
+    let uncoupled = executed(&arm("push_object_uncoupled.toml"), &(dataset.clone(), learned.clone()));
+    let blind = executed(&arm("push_object_blind.toml"), &blind());
+    let bits = |outcome: &RunOutcome| {
+        outcome.steps.iter().flat_map(|step| step.wrench.iter().map(|x| x.to_bits()).collect::<Vec<_>>()).collect::<Vec<_>>()
+    };
+    for (one, alone) in beside.iter().zip([&uncoupled, &blind]) {
+        assert_eq!(bits(&one.outcome), bits(alone), "{}", one.name);
+        assert_ne!(bits(&one.outcome), bits(&run), "{}", one.name);
+    }
+    let again = executed(&experiment, taught());
+    assert_eq!(again.state_hash, run.state_hash);
+    // Variants of the scenario that extend it do not compare once more what they are themselves.
+    assert!(scenario("push_object_uncoupled.toml").beside.is_empty() && scenario("push_object_blind.toml").beside.is_empty());
 }

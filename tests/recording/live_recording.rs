@@ -73,6 +73,47 @@ fn it_says_what_the_recording_says_that_is_written_afterwards() {
     assert_eq!(rows(&live, &entity, &translation, read), rows(&whole, &entity, &translation, read));
 }
 
+/// What an entity says over the time of the teaching, in the order of time.
+fn taught(chunks: &[Chunk], entity: &Entity, names: &[&str]) -> Vec<(i64, u64)> {
+    let timeline = rerun::TimelineName::try_new("teaching_time").expect("a good name");
+    let component = rerun::Scalars::descriptor_scalars().component;
+    let of_entity = chunks.iter().filter(|chunk| *chunk.entity_path() == entity.of(names) && !chunk.is_static());
+    let timed = of_entity.flat_map(|chunk| {
+        let times = chunk.iter_component_indices(timeline, component).map(|(time, _)| time.as_i64()).collect::<Vec<_>>();
+        times.into_iter().zip(chunk.iter_slices::<f64>(component).map(|values| values[0].to_bits()).collect::<Vec<_>>())
+    });
+    let mut rows: Vec<(i64, u64)> = timed.collect();
+    rows.sort_unstable();
+    rows
+}
+
+/// Contract: lessons are in the file as they are made, in whatever order they end, each where it stands among all; a run that is killed before the
+/// last one leaves those that were made.
+#[test]
+fn lessons_are_there_as_soon_as_they_are_made() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = outcome();
+    let path = folder.path().join("whole.rrd");
+    write_recording(&path, &experiment(), &run).expect("it is written");
+    let whole = taught(&chunks(&path), &entity_path::TEACHING_MOTION, &["x"]);
+    let told = |name: &str, order: &[usize], all: bool| {
+        let path = folder.path().join(name);
+        let recording = LiveRecording::to_file(&path, &experiment());
+        order.iter().for_each(|number| recording.lesson(&run.robot, *number, &run.lessons[*number]));
+        if all {
+            recording.taught(&run.robot, &run.lessons);
+        }
+        assert!(recording.finish(PATIENCE), "the recording catches up");
+        taught(&chunks(&path), &entity_path::TEACHING_MOTION, &["x"])
+    };
+    let each = whole.len() / run.lessons.len();
+    assert!(each > 5 && run.lessons.len() == 2, "{} rows", whole.len());
+    assert_eq!(told("first.rrd", &[0], false), whole[..each]);
+    assert_eq!(told("second.rrd", &[1], false), whole[each..]);
+    assert_eq!(told("both.rrd", &[1, 0], false), whole);
+    assert_eq!(told("one_was_lost.rrd", &[1], true), whole);
+}
+
 /// A recording that was cut off gives back everything before the cut.
 #[test]
 fn it_can_be_read_wherever_it_is_cut_off() {

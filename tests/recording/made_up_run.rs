@@ -78,6 +78,7 @@ fn learned(shaping: ShapingKind) -> RunOutcome {
         traces: Vec::new(),
         snapshots: Snapshots::new(),
         final_objects: objects.to_vec(),
+        beside: Vec::new(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What is kept of a run: the files hold what the records say, bit for bit where they hold numbers, and failures are told.
 
 #[cfg(feature = "rerun")]
+pub mod beside;
 mod documented;
 #[cfg(feature = "rerun")]
 mod live_recording;

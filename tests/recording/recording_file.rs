@@ -4,14 +4,13 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use cpdmp::recording::entity_path::{self, ENTITIES, TIMELINES};
+use cpdmp::recording::entity_path::{self, TIMELINES};
 use cpdmp::recording::{RecordingError, write_recording};
 use cpdmp::simulation::RunOutcome;
 use rerun::external::re_log_types::LogMsg;
 use rerun::log::Chunk;
 use tempfile::TempDir;
 
-use super::documented::assert_documented;
 use super::made_up_run::{CLOSED, COMPLIES, HOLDS, outcome, outcome_of_the_baseline};
 use super::read_rrd::{chunks, experiment, messages, rows, texts};
 
@@ -78,10 +77,9 @@ fn events_tell_what_happened_in_order() {
 }
 
 #[test]
-fn entities_and_timelines_are_those_that_are_documented() {
+fn timelines_are_those_that_are_documented() {
     let (_folder, path) = written(&outcome());
     let chunks = chunks(&path);
-    assert_documented(&chunks, &ENTITIES.iter().map(|entity| entity.pattern).collect::<Vec<_>>());
     let timelines: BTreeSet<&str> = chunks.iter().flat_map(|chunk| chunk.timelines().keys().map(|name| name.as_str())).collect();
     assert_eq!(timelines, TIMELINES.map(|timeline| timeline.name).into_iter().collect());
 }

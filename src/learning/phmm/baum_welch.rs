@@ -7,7 +7,7 @@ use super::maximisation::{Penalty, maximise_state};
 use super::standardisation::Standardisation;
 use super::statistics::{Group, gather};
 use super::{CovarianceMode, Expectation, Phmm, PhmmSettings, Sequence};
-use crate::learning::LearningError;
+use crate::learning::{LearningError, MayGoOn};
 
 /// How a fit ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,10 +59,12 @@ pub(super) struct Problem<'a> {
     pub(super) samples: usize,
     /// Features of every sequence, in user units.
     pub(super) phis: Vec<DVector<f64>>,
+    /// Asked before every iteration. What a climb that may not go on has reached is no result: whoever started it asks again.
+    pub(super) may_go_on: MayGoOn<'a>,
 }
 
 impl<'a> Problem<'a> {
-    pub(super) fn new(sequences: &[Sequence], settings: &'a PhmmSettings) -> Result<Self, LearningError> {
+    pub(super) fn new(sequences: &[Sequence], settings: &'a PhmmSettings, may_go_on: MayGoOn<'a>) -> Result<Self, LearningError> {
         let Some(first) = sequences.first() else { return Err(LearningError::Data("no demonstration".to_owned())) };
         let (d, p) = (first.dimension, first.theta.len());
         if let Some(k) = sequences.iter().position(|s| s.dimension != d || s.theta.len() != p || s.samples() == 0) {
@@ -85,7 +87,7 @@ impl<'a> Problem<'a> {
         let scaling = Standardisation::of(sequences, &settings.scale_factors);
         let phis = sequences.iter().map(|s| s.theta.clone()).collect();
         let sequences = sequences.iter().map(|s| scaling.sequence(s)).collect();
-        Ok(Self { settings, scaling, sequences, samples, phis })
+        Ok(Self { settings, scaling, sequences, samples, phis, may_go_on })
     }
 
     /// The prior is worth `ridge` demonstrations, spread over the states: it does not depend on the rate of sampling.
@@ -112,6 +114,9 @@ impl<'a> Problem<'a> {
         let (mut model, mut history, mut status) = (first, Vec::new(), FitStatus::IterationLimit);
         let (mut kept, mut memory) = (model.clone(), Memory::default());
         for iteration in 0..=most_iterations {
+            if !(self.may_go_on)() {
+                break;
+            }
             let Some(objective) = self.expect(&model, &penalty, &mut memory).filter(|o| o.is_finite()) else {
                 (model, status) = (kept, FitStatus::Degenerate);
                 break;

@@ -11,7 +11,7 @@ use super::baum_welch::{FitStatus, Problem, Run, demonstrations};
 use super::empty_states::EMPTY;
 use super::starts::first_model;
 use super::{Group, Phmm, PhmmSettings, Sequence, Start, StateEvidence, Topology, gather, prediction_error};
-use crate::learning::LearningError;
+use crate::learning::{FOR_EVER, LearningError, MayGoOn, go_on};
 
 /// How one start fared.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,8 +59,17 @@ const GLOBAL_ITERATIONS: usize = 50;
 /// # Errors
 /// When the sequences disagree in shape, hold a number that is not finite, or cannot support so many states.
 pub fn fit(sequences: &[Sequence], settings: &PhmmSettings, seed: u64) -> Result<Fit, LearningError> {
-    let problem = Problem::new(sequences, settings)?;
+    fit_while(sequences, settings, seed, FOR_EVER)
+}
+
+/// Learns as [`fit`] while it may go on.
+///
+/// # Errors
+/// As [`fit`], and [`LearningError::Stopped`] when it may not.
+pub fn fit_while(sequences: &[Sequence], settings: &PhmmSettings, seed: u64, may_go_on: MayGoOn) -> Result<Fit, LearningError> {
+    let problem = Problem::new(sequences, settings, may_go_on)?;
     let runs: Vec<(Start, Run)> = settings.starts().into_par_iter().map(|start| (start, problem.run(start, seed))).collect();
+    go_on(may_go_on, || "a model was learned".to_owned())?;
     let usable = problem.refuse_empty_states(&runs)?;
     problem.best(runs, &usable)
 }
@@ -71,7 +80,7 @@ pub fn fit(sequences: &[Sequence], settings: &PhmmSettings, seed: u64) -> Result
 /// When model and sequences do not fit together, or the likelihood is not finite from the first iteration on.
 pub fn refine(model: &Phmm, sequences: &[Sequence], settings: &PhmmSettings) -> Result<Fit, LearningError> {
     model.check()?;
-    let problem = Problem::new(sequences, settings)?;
+    let problem = Problem::new(sequences, settings, FOR_EVER)?;
     let (d, p) = (sequences[0].dimension, sequences[0].theta.len());
     if (model.dimension(), model.parameters()) != (d, p) {
         let (md, mp) = (model.dimension(), model.parameters());

@@ -33,7 +33,7 @@ pub(in crate::learning) use standardisation::mean_and_spread;
 
 pub use baum_welch::FitStatus;
 pub use evidence::StateEvidence;
-pub use fit::{Fit, StartReport, fit, refine};
+pub use fit::{Fit, StartReport, fit, fit_while, refine};
 pub use forward_backward::{Expectation, expect};
 pub use kmeans::k_means;
 pub use maximisation::{Penalty, maximise_state};

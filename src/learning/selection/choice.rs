@@ -1,7 +1,7 @@
 //! What of a model the demonstrations choose, instead of its settings.
 
-use super::super::LearningError;
 use super::super::phmm::{PhmmSettings, Sequence};
+use super::super::{LearningError, MayGoOn};
 use super::{RidgeChoice, StatesChoice, StatesSearch, choose_ridge, choose_states};
 
 /// What of one model is chosen from the demonstrations.
@@ -31,11 +31,12 @@ pub fn choose(
     settings: &PhmmSettings,
     selection: Selection,
     seed: u64,
+    may_go_on: MayGoOn,
 ) -> Result<(PhmmSettings, Choices), LearningError> {
     let mut settings = settings.clone();
-    let states = selection.states.map(|search| choose_states(sequences, &settings, search, seed)).transpose()?;
+    let states = selection.states.map(|search| choose_states(sequences, &settings, search, seed, may_go_on)).transpose()?;
     settings.states = states.as_ref().map_or(settings.states, |choice| choice.states);
-    let ridge = selection.ridge.then(|| choose_ridge(sequences, &settings, seed)).transpose()?;
+    let ridge = selection.ridge.then(|| choose_ridge(sequences, &settings, seed, may_go_on)).transpose()?;
     settings.ridge = ridge.as_ref().map_or(settings.ridge, |choice| choice.ridge);
     Ok((settings, Choices { states, ridge }))
 }

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::super::LearningError;
-use super::super::phmm::{PhmmSettings, Sequence, fit, prediction_error, refine};
+use super::super::phmm::{PhmmSettings, Sequence, fit_while, prediction_error, refine};
+use super::super::{LearningError, MayGoOn, go_on};
 use super::folds::folds;
 
 /// Candidates for the strength: two per decade. 0 is not among them: with few demonstrations some prior is always better than none.
@@ -34,7 +34,7 @@ pub struct RidgeChoice {
 ///
 /// # Errors
 /// When the sequences cannot be learned from.
-pub fn choose_ridge(sequences: &[Sequence], settings: &PhmmSettings, seed: u64) -> Result<RidgeChoice, LearningError> {
+pub fn choose_ridge(sequences: &[Sequence], settings: &PhmmSettings, seed: u64, may_go_on: MayGoOn) -> Result<RidgeChoice, LearningError> {
     let thetas: Vec<_> = sequences.iter().map(|s| s.theta.clone()).collect();
     let groups = folds(&thetas);
     if groups.len() < 3 || thetas.iter().all(|theta| *theta == thetas[0]) {
@@ -46,8 +46,9 @@ pub fn choose_ridge(sequences: &[Sequence], settings: &PhmmSettings, seed: u64) 
             chosen.map(|(_, s)| s.clone()).collect()
         };
         let (rest, left_out) = (part(false), part(true));
-        let first = fit(&rest, settings, seed)?.model;
+        let first = fit_while(&rest, settings, seed, may_go_on)?.model;
         let error = |ridge: &f64| {
+            go_on(may_go_on, || format!("a ridge of {ridge} was tried"))?;
             let settings = PhmmSettings { ridge: *ridge, max_iterations: CONTINUATION, ..settings.clone() };
             prediction_error(&refine(&first, &rest, &settings)?.model, &left_out, sequences)
         };

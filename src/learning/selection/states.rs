@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::super::LearningError;
 use super::super::parameters::mean_and_deviations;
-use super::super::phmm::{Phmm, PhmmSettings, Sequence, Topology, expect, fit, prediction_error};
+use super::super::phmm::{Phmm, PhmmSettings, Sequence, Topology, expect, fit_while, prediction_error};
+use super::super::{LearningError, MayGoOn, go_on};
 use super::folds::folds;
 use crate::math::solve_normal_equations;
 
@@ -65,6 +65,7 @@ pub fn choose_states(
     settings: &PhmmSettings,
     search: StatesSearch,
     seed: u64,
+    may_go_on: MayGoOn,
 ) -> Result<StatesChoice, LearningError> {
     let groups = folds(&sequences.iter().map(|s| s.theta.clone()).collect::<Vec<_>>());
     if search.criterion == StatesCriterion::CrossValidation && groups.len() < 2 {
@@ -76,11 +77,13 @@ pub fn choose_states(
         .map(|states| {
             let settings = PhmmSettings { states: *states, ..settings.clone() };
             match search.criterion {
-                StatesCriterion::Bic => bic(sequences, &settings, seed),
-                StatesCriterion::CrossValidation => left_out_error(sequences, &groups, &settings, seed),
+                StatesCriterion::Bic => bic(sequences, &settings, seed, may_go_on),
+                StatesCriterion::CrossValidation => left_out_error(sequences, &groups, &settings, seed, may_go_on),
             }
         })
         .collect();
+    // A number of states that was not tried for want of time is none that cannot be fitted.
+    go_on(may_go_on, || "the number of states was chosen".to_owned())?;
     let score = |s: &Result<f64, LearningError>| s.as_ref().ok().copied().filter(|x| x.is_finite()).unwrap_or(f64::INFINITY);
     let curve: Vec<StatesCandidate> =
         numbers.iter().zip(&scores).map(|(states, s)| StatesCandidate { states: *states, score: score(s) }).collect();
@@ -90,8 +93,8 @@ pub fn choose_states(
     }
 }
 
-fn bic(sequences: &[Sequence], settings: &PhmmSettings, seed: u64) -> Result<f64, LearningError> {
-    let model = fit(sequences, settings, seed)?.model;
+fn bic(sequences: &[Sequence], settings: &PhmmSettings, seed: u64, may_go_on: MayGoOn) -> Result<f64, LearningError> {
+    let model = fit_while(sequences, settings, seed, may_go_on)?.model;
     let degenerate = || LearningError::Model("a covariance is not positive definite".to_owned());
     let mut log_likelihood = 0.0;
     for sequence in sequences {
@@ -123,14 +126,20 @@ fn varied_features(sequences: &[Sequence]) -> usize {
     solve_normal_equations(&deviations.tr_mul(&deviations), &DMatrix::zeros(deviations.ncols(), 0)).rank
 }
 
-fn left_out_error(sequences: &[Sequence], groups: &[Vec<usize>], settings: &PhmmSettings, seed: u64) -> Result<f64, LearningError> {
+fn left_out_error(
+    sequences: &[Sequence],
+    groups: &[Vec<usize>],
+    settings: &PhmmSettings,
+    seed: u64,
+    may_go_on: MayGoOn,
+) -> Result<f64, LearningError> {
     let mut squares = 0.0;
     for group in groups {
         let part = |left_out: bool| -> Vec<Sequence> {
             let chosen = sequences.iter().enumerate().filter(|(k, _)| group.contains(k) == left_out);
             chosen.map(|(_, s)| s.clone()).collect()
         };
-        let model = fit(&part(false), settings, seed)?.model;
+        let model = fit_while(&part(false), settings, seed, may_go_on)?.model;
         squares += prediction_error(&model, &part(true), sequences)?.powi(2);
     }
     Ok((squares / groups.len() as f64).sqrt())

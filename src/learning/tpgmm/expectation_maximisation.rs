@@ -34,6 +34,9 @@ impl Problem<'_> {
         let (mut model, mut history, mut status) = (first, Vec::new(), FitStatus::IterationLimit);
         let mut kept = model.clone();
         for iteration in 0..=self.settings.max_iterations {
+            if !(self.may_go_on)() {
+                break;
+            }
             let Some((objective, gamma)) = self.expectation(&model).filter(|e| e.0.is_finite()) else {
                 (model, status) = (kept, FitStatus::Degenerate);
                 break;

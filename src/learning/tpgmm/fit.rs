@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use super::expectation_maximisation::Run;
 use super::problem::Problem;
 use super::{FramedSequence, TpGmm, TpGmmSettings, TpGmmStart};
-use crate::learning::LearningError;
 use crate::learning::phmm::{FitStatus, k_means};
+use crate::learning::{FOR_EVER, LearningError, MayGoOn, go_on};
 use crate::math::stream;
 
 /// How one start fared.
@@ -41,9 +41,18 @@ pub struct TpGmmFit {
 /// When settings are outside their ranges, sequences disagree in frames or columns, a value is not finite, or there are fewer samples than
 /// components.
 pub fn fit(sequences: &[FramedSequence], settings: &TpGmmSettings, seed: u64) -> Result<TpGmmFit, LearningError> {
-    let problem = Problem::new(sequences, settings)?;
+    fit_while(sequences, settings, seed, FOR_EVER)
+}
+
+/// Learns as [`fit`] while it may go on.
+///
+/// # Errors
+/// As [`fit`], and [`LearningError::Stopped`] when it may not.
+pub fn fit_while(sequences: &[FramedSequence], settings: &TpGmmSettings, seed: u64, may_go_on: MayGoOn) -> Result<TpGmmFit, LearningError> {
+    let problem = Problem::new(sequences, settings, may_go_on)?;
     let starts = settings.starts();
     let runs: Vec<Run> = starts.par_iter().map(|start| problem.climb(problem.first_model(*start, seed))).collect();
+    go_on(may_go_on, || "a mixture was learned".to_owned())?;
     let offset = problem.log_likelihood_offset();
     let objective = |run: &Run| run.history.last().map_or(f64::NEG_INFINITY, |last| last + offset);
     let report = |(start, run): (&TpGmmStart, &Run)| TpGmmStartReport { start: *start, objective: objective(run), status: run.status };

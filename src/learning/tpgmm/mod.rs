@@ -18,7 +18,7 @@ mod model;
 mod problem;
 mod settings;
 
-pub use fit::{TpGmmFit, TpGmmStartReport, fit};
+pub use fit::{TpGmmFit, TpGmmStartReport, fit, fit_while};
 pub use frame::{Frame, FramedSequence};
 pub use model::TpGmm;
 pub use settings::{TpGmmSettings, TpGmmStart};

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{FramedSequence, TpGmm, TpGmmSettings};
-use crate::learning::LearningError;
 use crate::learning::phmm::mean_and_spread;
+use crate::learning::{LearningError, MayGoOn};
 
 /// All samples as every frame sees them, with mean 0 and spread 1 per column.
 pub(super) struct Problem<'a> {
@@ -15,10 +15,12 @@ pub(super) struct Problem<'a> {
     pub(super) lengths: Vec<usize>,
     /// Mean and spread by frame, then by variable.
     scaling: Vec<Vec<(f64, f64)>>,
+    /// Asked before every iteration. What a climb that may not go on has reached is no result: whoever started it asks again.
+    pub(super) may_go_on: MayGoOn<'a>,
 }
 
 impl<'a> Problem<'a> {
-    pub(super) fn new(sequences: &[FramedSequence], settings: &'a TpGmmSettings) -> Result<Self, LearningError> {
+    pub(super) fn new(sequences: &[FramedSequence], settings: &'a TpGmmSettings, may_go_on: MayGoOn<'a>) -> Result<Self, LearningError> {
         let faults = settings.faults("tpgmm");
         if !faults.is_empty() {
             return Err(LearningError::Settings(faults));
@@ -40,7 +42,7 @@ impl<'a> Problem<'a> {
         }
         let mut local: Vec<DMatrix<f64>> = (0..frames).map(|j| seen_from(sequences, j)).collect();
         let scaling = local.iter_mut().map(standardise).collect();
-        Ok(Self { settings, local, lengths, scaling })
+        Ok(Self { settings, local, lengths, scaling, may_go_on })
     }
 
     pub(super) fn samples(&self) -> usize {

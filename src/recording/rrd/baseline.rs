@@ -19,10 +19,10 @@ pub(super) fn compares(experiment: &Experiment) -> bool {
     experiment.learning.shaping != ShapingKind::Lwr && !experiment.theta_m.is_empty() && experiment.space == MotionSpace::Task
 }
 
-/// Logs the path; none when there is nothing to compare.
+/// Logs the path.
 pub(super) fn log_baseline(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), Fault> {
     // Demonstrations that the baseline cannot learn from have none, and the run stands without it.
-    let Some(way) = compares(experiment).then(|| plan(experiment, outcome).ok()).flatten() else { return Ok(()) };
+    let Ok(way) = plan(experiment, outcome) else { return Ok(()) };
     let Some(points) = Path::new(&way, way.duration_s()).points() else { return Ok(()) };
     let strip = LineStrips3D::new([points]).with_colors([palette::BASELINE]).with_radii([0.003]);
     recorder.always(BASELINE_PATH.path(), &strip)

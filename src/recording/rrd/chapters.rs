@@ -9,12 +9,13 @@ use super::layout::Shown;
 use super::recorder::{Fault, Recorder};
 use super::workplace::Workplace;
 use super::{
-    baseline, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, paths, replay_figure,
-    robot_figure, scene_figure, spread_figure, state_figure, task_states, teaching_figure,
+    baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,
+    replay_figure, robot_figure, scene_figure, spread_figure, state_figure, task_states, teaching_figure,
 };
 use crate::learning::ShapingKind;
+use crate::learning::cpdmp::{CouplingMode, CouplingSettings};
 use crate::robot::{RobotModel, Shape};
-use crate::simulation::{Experiment, LessonRecord, RunOutcome};
+use crate::simulation::{Beside, Experiment, Help, LessonRecord, RunOutcome};
 use crate::world::support_height_m;
 
 /// The application that the viewer keeps the layout for.
@@ -31,18 +32,23 @@ pub(super) struct Chapters<'a> {
     pub work: Workplace,
     /// How long the execution of the skill takes (s).
     pub duration_s: f64,
+    /// What was executed beside the run.
+    pub beside: &'a [Beside],
 }
 
 impl Chapters<'_> {
     /// The layout that the recording opens with; with a page for the lessons when there are some.
     pub fn layout(&self, robot: &RobotModel, taught: bool, play: PlayState) -> Result<(), Fault> {
+        let Experiment { learning, execution, .. } = self.experiment;
         let shown = Shown {
             camera: self.camera(),
             floor_m: self.floor_m(robot),
             way_m: self.work.size,
             taught,
-            baseline: baseline::compares(self.experiment),
-            states: self.experiment.learning.shaping != ShapingKind::Lwr,
+            baseline: self.compares(),
+            beside: self.beside,
+            states: (learning.shaping != ShapingKind::Lwr).then(|| colors_of_states(&execution.coupling)),
+            person: execution.help != Help::None,
         };
         let (blueprint, properties) = layout::layout(&shown, play)?;
         blueprint_property::send(&self.stream, APPLICATION, &blueprint, &properties)
@@ -53,6 +59,12 @@ impl Chapters<'_> {
         teaching_figure::log_lessons(&self.recorder(&[]), self.experiment, robot, lessons)
     }
 
+    /// How number `number` of them was taught; `begun` tells whether others have been told.
+    pub fn lesson(&self, robot: &RobotModel, (number, lesson): (usize, &LessonRecord), begun: bool) -> Result<(), Fault> {
+        let recorder = if begun { self.recorder(&[]).continues() } else { self.recorder(&[]) };
+        teaching_figure::log_from(&recorder, self.experiment, robot, (number, std::slice::from_ref(lesson)))
+    }
+
     /// What is known before the execution: demonstrations, their replays, skill and plan.
     pub fn skill(&self, outcome: &RunOutcome) -> Result<(), Fault> {
         let recorder = self.recorder(&[]);
@@ -60,7 +72,9 @@ impl Chapters<'_> {
         guide::log_guide(&recorder, self.experiment, outcome)?;
         replay_figure::log_replays(&recorder, &outcome.dataset)?;
         paths::log_known(&recorder, outcome, self.duration_s)?;
-        baseline::log_baseline(&recorder, self.experiment, outcome)?;
+        if self.compares() {
+            baseline::log_baseline(&recorder, self.experiment, outcome)?;
+        }
         state_figure::log_states(&recorder, self.experiment, outcome, self.duration_s)?;
         forcing_figure::log_forcing(&recorder, self.experiment, outcome, self.duration_s)
     }
@@ -82,7 +96,20 @@ impl Chapters<'_> {
 
     /// What is known when it is over.
     pub fn end(&self, outcome: &RunOutcome) -> Result<(), Fault> {
-        contact_figure::log_contacts(&self.recorder(&[]), outcome)
+        contact_figure::log_contacts(&self.recorder(&[]), outcome)?;
+        if !self.beside.is_empty() {
+            beside::log_forces(&self.recorder(&outcome.steps), &outcome.steps, &outcome.skill, (beside::RUN, palette::EXECUTED))?;
+            beside::log_colors(&self.recorder(&[]), self.beside)?;
+        }
+        for (index, one) in self.beside.iter().enumerate() {
+            beside::log_beside(&self.recorder(&one.outcome.steps), one, index)?;
+        }
+        Ok(())
+    }
+
+    /// Whether the baseline's plan is shown: where nothing was executed beside the run, which says more.
+    fn compares(&self) -> bool {
+        self.beside.is_empty() && baseline::compares(self.experiment)
     }
 
     fn recorder(&self, records: &[crate::simulation::StepRecord]) -> Recorder {
@@ -101,6 +128,15 @@ impl Chapters<'_> {
         let support_m = supports_m.reduce(f64::min).unwrap_or(0.0);
         let lowest_m = lowest_m(robot);
         if lowest_m <= support_m { lowest_m } else { support_m - TABLE_HEIGHT_M }
+    }
+}
+
+/// The colours that states can have in this mode of the coupling. Titles have no room for others.
+fn colors_of_states(coupling: &CouplingSettings) -> &'static str {
+    match coupling.mode {
+        CouplingMode::MinimiseForceError => "; minimising force yellow",
+        CouplingMode::Comply => "; stiff green, complying purple",
+        CouplingMode::PerState(_) => "; stiff green, complying purple, minimising force yellow",
     }
 }
 

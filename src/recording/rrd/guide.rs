@@ -2,6 +2,7 @@
 
 use rerun::TextDocument;
 
+use super::beside;
 use super::entity_path::{ENTITIES, GUIDE, TIMELINES};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{Experiment, RunOutcome};
@@ -14,11 +15,12 @@ pub(super) fn log_guide(recorder: &Recorder, experiment: &Experiment, outcome: &
 fn page(experiment: &Experiment, outcome: &RunOutcome) -> String {
     let setting: Vec<String> = experiment.parameters.0.iter().map(|(name, value)| format!("{name} = {value}")).collect();
     let mut page = format!(
-        "# {}\n\nSeed {}; {}; {} demonstrations.\n\n{READING}\n\n## Timelines\n\n",
+        "# {}\n\nSeed {}; {}; {} demonstrations.\n\n{READING}\n{}{MORE}\n\n## Timelines\n\n",
         experiment.name,
         experiment.seed,
         setting.join(", "),
         outcome.dataset.demonstrations.len(),
+        beside::in_words(&outcome.beside),
     );
     page.extend(TIMELINES.iter().map(|timeline| format!("- `{}`: {}\n", timeline.name, timeline.meaning)));
     page.push_str("\n## Entities\n\n");
@@ -33,7 +35,10 @@ person may push it to where it should go (vermilion arrow). Ellipsoids and ellip
 each state, at two standard deviations.
 
 - grey: taught; blue: planned, what the skill generates for this setting without any force; orange: executed
-- black: what plain DMPs by locally weighted regression generate from the same demonstrations, when the skill is told parameters: they are not
+- black, where nothing was executed beside the run: what plain DMPs by locally weighted regression generate from the same demonstrations, when
+  the skill is told parameters: they are not";
+
+const MORE: &str = "\
 - dark blue arrow and line: force measured at the tool; yellow: force that the skill expects; vermilion: force of the person
 - the ellipsoid with the thick lines is that of the active state, which is also named beside the scene
 - the plot above the lanes says why: a state complies when the demonstrations disagree in it by more than the threshold sigma

@@ -1,35 +1,31 @@
 //! The layout that a recording opens with: a page for the execution, one for the teaching, one for the replay.
 
 use nalgebra::Vector3;
-use rerun::blueprint::components::{BackgroundKind, LinkAxis, PanelState, PlayState};
+use rerun::blueprint::components::{PanelState, PlayState};
 use rerun::blueprint::{
-    Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, StateTimelineView, Tabs, TextDocumentView,
-    TextLogView, TimePanel, TimeSeriesView, Vertical, View,
+    Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, StateTimelineView, Tabs, TextDocumentView, TimePanel, Vertical,
+    View,
 };
-use rerun::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
-use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, TextLogColumns, TimeAxis, VisibleTimeRanges,
-};
-use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind, TimelineColumn};
 
+use super::beside;
 use super::blueprint_property::Properties;
 use super::camera::Camera;
-use super::convert;
-use super::entity_path::{EXECUTED_PATH, Entity, FORCE_COLORS, SIM_TIME, TEACHING_PATH, TIMELINES};
-use super::palette;
+use super::entity_path::{BESIDE_COLORS, BESIDE_PATH, EXECUTED_PATH, FORCE_COLORS, SIM_TIME, TEACHING_PATH};
+use super::paths::AXES;
 use super::recorder::Fault;
+use super::views::{Views, motion_title};
+use crate::simulation::Beside;
 
 /// Titles stand where a legend would cover what is drawn.
 const PATHS: &str = "Taught grey, planned blue, executed orange";
 const BASELINE: &str = ", LWR-DMP black";
-const STATES: &str = "; stiff green, complying purple, minimising force yellow";
 const PERSON: &str = "; person vermilion";
 
 /// A coordinate that moves less than this (m) is not worth one of the two large plots.
 const MOVES_M: f64 = 0.02;
 
 /// What decides about the layout.
-pub(super) struct Shown {
+pub(super) struct Shown<'a> {
     pub camera: Camera,
     /// Height of the floor (m, world).
     pub floor_m: f64,
@@ -39,12 +35,16 @@ pub(super) struct Shown {
     pub taught: bool,
     /// Whether a baseline is shown beside the run.
     pub baseline: bool,
-    /// Whether the skill has states.
-    pub states: bool,
+    /// What was executed beside the run.
+    pub beside: &'a [Beside],
+    /// What colours the states of the skill have, for a title; none when it has no states.
+    pub states: Option<&'static str>,
+    /// Whether the person helps.
+    pub person: bool,
 }
 
 /// The layout with the properties of its views: one page for the execution, one for what came before it.
-pub(super) fn layout(shown: &Shown, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
+pub(super) fn layout(shown: &Shown<'_>, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
     let mut views = Views::default();
     let execution = execution(&mut views, shown)?.with_name("Execution");
     let teaching = teaching(&mut views, shown)?.with_name("Teaching (timeline teaching_time)");
@@ -62,15 +62,18 @@ pub(super) fn layout(shown: &Shown, play: PlayState) -> Result<(Blueprint, Prope
 }
 
 /// The scene with the events at the left; motion, forces, compliance and lanes at the right.
-fn execution(views: &mut Views, shown: &Shown) -> Result<Horizontal, Fault> {
-    let parts = [(PATHS, true), (BASELINE, shown.baseline), (STATES, shown.states), (PERSON, true)];
+fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> {
+    let others = beside::for_title(shown.beside);
+    let parts =
+        [(PATHS, true), (&others, true), (BASELINE, shown.baseline), (shown.states.unwrap_or_default(), true), (PERSON, shown.person)];
     let title: String = parts.into_iter().filter_map(|(part, told)| told.then_some(part)).collect();
-    let scene = views.scene(&title, "/world", &EXECUTED_PATH, shown)?;
+    let growing = std::iter::once(EXECUTED_PATH.path()).chain(shown.beside.iter().map(|one| BESIDE_PATH.of(&[&one.name])));
+    let scene = views.scene(&title, "/world", growing, shown)?;
     let axes = axes(&shown.way_m);
-    let [first, second] = [views.motion(axes[0])?, views.motion(axes[1])?];
-    let mut right: Vec<ContainerLike> = vec![first.into(), second.into(), Tabs::new(more(views, axes)?).into()];
+    let [first, second] = [views.motion(axes[0], &others)?, views.motion(axes[1], &others)?];
+    let mut right: Vec<ContainerLike> = vec![first.into(), second.into(), Tabs::new(more(views, axes, shown)?).into()];
     let mut shares = vec![1.0, 1.0, 1.25];
-    if shown.states {
+    if shown.states.is_some() {
         let title = "How far demonstrations disagree in the active state (orange), threshold sigma (purple); mm or mrad";
         right.push(views.plot(title, "plots/spread")?.into());
         shares.push(0.7);
@@ -93,26 +96,45 @@ fn axes(way_m: &Vector3<f64>) -> [&'static str; 3] {
 }
 
 /// What is looked at in its turn.
-fn more(views: &mut Views, [first, second, third]: [&str; 3]) -> Result<[ContainerLike; 6], Fault> {
-    let mut beside = |name: &str, plots: &[(&str, &str)]| -> Result<Horizontal, Fault> {
+fn more(views: &mut Views, [first, second, third]: [&str; 3], shown: &Shown<'_>) -> Result<Vec<ContainerLike>, Fault> {
+    let mut side_by_side = |name: &str, plots: &[(&str, &str)]| -> Result<Horizontal, Fault> {
         let plots: Result<Vec<View>, Fault> = plots.iter().map(|(title, origin)| views.plot(title, origin)).collect();
         Ok(Horizontal::new(plots?.into_iter().map(Into::into)).with_name(name))
     };
-    let forces = beside("", &[("x (N)", "plots/force/x"), ("y (N)", "plots/force/y"), ("z (N)", "plots/force/z")])?;
+    let forces = side_by_side("", &[("x (N)", "plots/force/x"), ("y (N)", "plots/force/y"), ("z (N)", "plots/force/z")])?;
     let colors = TextDocumentView::new("Key").with_origin(FORCE_COLORS.pattern);
     let force = Horizontal::new([forces.into(), colors.into()]).with_name("Force").with_column_shares(vec![4.6, 1.0]);
-    let person = beside("Person", &[("Force (N)", "plots/person/force"), ("Power (W)", "plots/person/power")])?;
+    let person = side_by_side("Person", &[("Force (N)", "plots/person/force"), ("Power (W)", "plots/person/power")])?;
     let forcing = [first, second].map(|axis| (format!("Forcing {axis} (m)"), format!("plots/forcing/{axis}")));
-    let forcing = beside("Forcing term", &forcing.each_ref().map(|(title, origin)| (title.as_str(), origin.as_str())))?;
-    let coupling = beside("Coupling", &[("Displacement (m): x orange, y green, z blue", "plots/coupling")])?;
-    let gripper = beside("Gripper", &[("0 closed, 1 open: commanded blue, measured orange", "plots/gripper")])?;
-    let motion = beside(&format!("Motion {third}"), &[(&motion_title(third), &format!("plots/motion/{third}"))])?;
-    Ok([force.into(), person.into(), forcing.into(), coupling.into(), gripper.into(), motion.into()])
+    let forcing = side_by_side("Forcing term", &forcing.each_ref().map(|(title, origin)| (title.as_str(), origin.as_str())))?;
+    let coupling = side_by_side("Coupling", &[("Displacement (m): x orange, y green, z blue", "plots/coupling")])?;
+    let gripper = side_by_side("Gripper", &[("0 closed, 1 open: commanded blue, measured orange", "plots/gripper")])?;
+    let motion = side_by_side(
+        &format!("Motion {third}"),
+        &[(&motion_title(third, &beside::for_title(shown.beside)), &format!("plots/motion/{third}"))],
+    )?;
+    let mut tabs = vec![force.into(), person.into(), forcing.into(), coupling.into(), gripper.into(), motion.into()];
+    if !shown.beside.is_empty() {
+        // The comparison is what such a scenario is about.
+        tabs.splice(0..0, compared(views)?);
+    }
+    Ok(tabs)
+}
+
+/// Forces of the run and of everything beside it: how far they are from what was expected, and as they were measured.
+fn compared(views: &mut Views) -> Result<[ContainerLike; 2], Fault> {
+    let mut page = |name: &str, title: &str, origin: &str| -> Result<ContainerLike, Fault> {
+        let plot = |axis: &&str| Ok(views.plot(&format!("{axis} (N)"), &format!("plots/beside/{origin}/{axis}"))?.into());
+        let plots: Vec<ContainerLike> = AXES.iter().map(plot).collect::<Result<_, Fault>>()?;
+        let key = TextDocumentView::new(title).with_origin(BESIDE_COLORS.pattern);
+        Ok(Horizontal::new([Horizontal::new(plots).into(), key.into()]).with_name(name).with_column_shares(vec![4.6, 1.0]).into())
+    };
+    Ok([page("Force error compared", "Key", "force_error")?, page("Force compared", "Key", "force")?])
 }
 
 /// The lessons: the scene at the left; motion, person and gripper at the right.
-fn teaching(views: &mut Views, shown: &Shown) -> Result<Horizontal, Fault> {
-    let scene = views.scene("Teaching: a person (vermilion) leads the weightless arm", "/teaching", &TEACHING_PATH, shown)?;
+fn teaching(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> {
+    let scene = views.scene("Teaching: a person (vermilion) leads the weightless arm", "/teaching", [TEACHING_PATH.path()], shown)?;
     let [first, second, _] = axes(&shown.way_m);
     let mut taught = |axis: &str| views.plot(&format!("Taught {axis} (m)"), &format!("teaching_plots/motion/{axis}"));
     let right: [ContainerLike; 5] = [
@@ -135,65 +157,4 @@ fn replay(views: &mut Views) -> Result<Vertical, Fault> {
         StateTimelineView::new("Demonstration").with_origin("/replay_lanes").into(),
     ];
     Ok(Vertical::new(plots).with_row_shares(vec![1.0, 1.0, 1.0, 0.5]))
-}
-
-fn motion_title(axis: &str) -> String {
-    format!("Motion {axis} (m): taught grey, planned blue, executed orange")
-}
-
-/// Makes views and keeps their properties.
-#[derive(Default)]
-struct Views {
-    properties: Properties,
-}
-
-impl Views {
-    /// A scene seen by the camera, in which the whole of a growing path is seen.
-    fn scene(&mut self, title: &str, origin: &str, path: &Entity, shown: &Shown) -> Result<View, Fault> {
-        let view = view(Spatial3DView::new(title).with_origin(origin))?;
-        let eye = EyeControls3D::new()
-            .with_position(convert::vector(&shown.camera.eye))
-            .with_look_target(convert::vector(&shown.camera.target))
-            .with_eye_up([0.0, 0.0, 1.0]);
-        self.properties.set(&view, "EyeControls3D", eye);
-        self.properties.set(&view, "Background", Background::new(BackgroundKind::SolidColor).with_color(palette::BACKGROUND));
-        let floor = rerun::components::Plane3D::new([0.0, 0.0, 1.0], shown.floor_m as f32);
-        self.properties.set(&view, "LineGrid3D", LineGrid3D::new().with_spacing(0.25).with_plane(floor));
-        let until_now = TimeRange { start: TimeRangeBoundary::Infinite, end: TimeRangeBoundary::AT_CURSOR };
-        let ranges = TIMELINES.map(|timeline| VisibleTimeRange { timeline: timeline.name.into(), range: until_now });
-        self.properties.set_for_entity(&view, &path.path(), VisibleTimeRanges::new(ranges));
-        Ok(view)
-    }
-
-    /// A plot over time, linked with all others. A legend would stand over the data: titles name the colours.
-    fn plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
-        let view = view(TimeSeriesView::new(name).with_origin(origin))?;
-        self.properties.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
-        self.properties.set(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
-        Ok(view)
-    }
-
-    /// A coordinate over time.
-    fn motion(&mut self, axis: &str) -> Result<View, Fault> {
-        self.plot(&motion_title(axis), &format!("plots/motion/{axis}"))
-    }
-
-    fn events(&mut self) -> Result<View, Fault> {
-        let view = view(TextLogView::new("Events").with_origin("/events"))?;
-        let column = |kind| TextLogColumn { kind, visible: true.into() };
-        // The texts begin with the time: the viewer's own column of it is too narrow for five digits.
-        let time = TimelineColumn { timeline: SIM_TIME.name.into(), visible: false.into() };
-        let columns = TextLogColumns::new()
-            .with_timeline_columns([time])
-            .with_text_log_columns([column(TextLogColumnKind::LogLevel), column(TextLogColumnKind::Body)]);
-        self.properties.set(&view, "TextLogColumns", columns);
-        Ok(view)
-    }
-}
-
-fn view(built: impl Into<ContainerLike>) -> Result<View, Fault> {
-    match built.into() {
-        ContainerLike::View(view) => Ok(view),
-        _ => Err("rerun made a container where a view was asked for".into()),
-    }
 }

@@ -1,6 +1,7 @@
 //! A recording of a run while it happens, for a viewer or for the case that the run is killed. It runs beside the run on a thread of its own,
 //! which may fall behind, hang or fail: the run never waits for it, and what there is no room for is left out.
 
+use std::collections::BTreeSet;
 use std::net::{SocketAddr, TcpStream};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,6 +45,7 @@ pub struct LiveRecording {
 /// What happens in a run.
 #[derive(Debug)]
 enum News {
+    Lesson(Box<RobotModel>, usize, LessonRecord),
     Taught(Box<RobotModel>, Vec<LessonRecord>),
     Planned(Box<RunOutcome>),
     Stepped(Box<StepRecord>),
@@ -91,7 +93,12 @@ impl LiveRecording {
         Self { news, over, done: Mutex::new(done) }
     }
 
-    /// The demonstrations have been taught.
+    /// A lesson has been taught, number `number` of those of the run.
+    pub fn lesson(&self, robot: &RobotModel, number: usize, lesson: &LessonRecord) {
+        self.tell(News::Lesson(Box::new(robot.clone()), number, lesson.clone()));
+    }
+
+    /// All demonstrations have been taught.
     pub fn taught(&self, robot: &RobotModel, lessons: &[LessonRecord]) {
         self.tell(News::Taught(Box::new(robot.clone()), lessons.to_vec()));
     }
@@ -123,16 +130,33 @@ impl LiveRecording {
 /// Records until the run is over, so many steps together.
 fn record(stream: RecordingStream, experiment: &Experiment, together: usize, news: &Receiver<News>) -> Result<(), Fault> {
     stream.send_recording_name(format!("{} (live)", name(experiment)))?;
-    let mut chapters = Chapters { stream, experiment, work: Workplace::default(), duration_s: 1.0 };
+    let mut chapters = Chapters { stream, experiment, work: Workplace::default(), duration_s: 1.0, beside: &[] };
     let mut planned: Option<Box<RunOutcome>> = None;
-    let (mut opened, mut told) = (false, 0);
+    let (mut opened, mut told, mut seen) = (false, 0, BTreeSet::new());
     for news in news {
         match news {
+            News::Lesson(robot, number, lesson) => {
+                // What has been seen so far is where the work is, until all have been taught.
+                if seen.is_empty() {
+                    chapters.work = Workplace::of_lessons(std::slice::from_ref(&lesson));
+                    chapters.layout(&robot, true, PlayState::Following)?;
+                    opened = true;
+                }
+                chapters.lesson(&robot, (number, &lesson), !seen.is_empty())?;
+                // A viewer is told at once, and a file has it if the run is killed.
+                chapters.stream.flush_async()?;
+                seen.insert(number);
+            }
             News::Taught(robot, lessons) => {
                 chapters.work = Workplace::of_lessons(&lessons);
                 chapters.layout(&robot, true, PlayState::Following)?;
                 opened = true;
-                chapters.lessons(&robot, &lessons)?;
+                for (number, lesson) in lessons.iter().enumerate() {
+                    if !seen.contains(&number) {
+                        chapters.lesson(&robot, (number, lesson), !seen.is_empty())?;
+                        seen.insert(number);
+                    }
+                }
             }
             News::Planned(outcome) => {
                 chapters.duration_s = outcome.plan.duration_s();

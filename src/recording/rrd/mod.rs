@@ -1,6 +1,7 @@
 //! The recording for the rerun viewer: the only place that knows rerun.
 
 mod baseline;
+mod beside;
 mod blueprint_property;
 mod camera;
 mod chapters;
@@ -32,6 +33,7 @@ mod spread_figure;
 mod state_figure;
 mod task_states;
 mod teaching_figure;
+mod views;
 mod workplace;
 mod write;
 

@@ -1,7 +1,7 @@
 //! Where the tool was led, was to go, and went: in space and over time.
 
 use nalgebra::{DVector, Vector3};
-use rerun::{Color, LineStrips3D, Scalars, SeriesLines};
+use rerun::{Color, LineStrips3D, Scalars, SerializedComponentColumn, SeriesLines};
 
 use super::convert;
 use super::entity_path::{EXECUTED_MOTION, EXECUTED_PATH, PLANNED_MOTION, PLANNED_PATH, TAUGHT_MOTION, TAUGHT_PATH, TOOL};
@@ -46,9 +46,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, duration_s: f
 pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord]) -> Result<(), Fault> {
     let tools: Vec<_> = records.iter().map(|record| record.tool).collect();
     recorder.poses(TOOL.path(), &tools)?;
-    let places: Vec<[f32; 3]> = tools.iter().map(|tool| convert::vector(&tool.translation.vector)).collect();
-    let pieces = (0..places.len()).map(|i| [places[i.saturating_sub(1)], places[i]]);
-    recorder.every_step(EXECUTED_PATH.path(), LineStrips3D::update_fields().with_strips(pieces).columns_of_unit_batches()?)?;
+    recorder.every_step(EXECUTED_PATH.path(), pieces(records)?)?;
     let look = LineStrips3D::update_fields().with_colors([palette::EXECUTED]).with_radii([0.004]);
     recorder.always(EXECUTED_PATH.path(), &look)?;
     for (axis, name) in AXES.iter().enumerate() {
@@ -58,6 +56,13 @@ pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord]) -> Resul
         recorder.every_step(entity, Scalars::new(values).columns_of_unit_batches()?)?;
     }
     Ok(())
+}
+
+/// A path that grows: of each record the piece since the record before.
+pub(super) fn pieces(records: &[StepRecord]) -> Result<impl Iterator<Item = SerializedComponentColumn> + use<>, Fault> {
+    let places: Vec<[f32; 3]> = records.iter().map(|record| convert::vector(&record.tool.translation.vector)).collect();
+    let pieces = (0..places.len()).map(|i| [places[i.saturating_sub(1)], places[i]]);
+    Ok(LineStrips3D::update_fields().with_strips(pieces).columns_of_unit_batches()?)
 }
 
 /// How a line of a plot looks; equal names share an entry of the legend.

@@ -23,11 +23,19 @@ const PAUSE_S: f64 = 1.0;
 
 /// Logs every lesson; nothing when the demonstrations were not taught in this run.
 pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, robot: &RobotModel, lessons: &[LessonRecord]) -> Result<(), Fault> {
-    if lessons.is_empty() {
-        return Ok(());
-    }
+    log_from(recorder, experiment, robot, (0, lessons))
+}
+
+/// Logs lessons of a run of which `number` come before: where they will stand when all are there, for the lessons of a run last equally long.
+pub(super) fn log_from(
+    recorder: &Recorder,
+    experiment: &Experiment,
+    robot: &RobotModel,
+    (number, lessons): (usize, &[LessonRecord]),
+) -> Result<(), Fault> {
+    let Some(length_s) = lessons.first().and_then(|lesson| lesson.looks.last()).map(|look| look.time_s) else { return Ok(()) };
     recorder.always(TEACHING.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
-    let mut film = Film::default();
+    let mut film = Film { number, start_s: number as f64 * (length_s + PAUSE_S), ..Film::default() };
     for lesson in lessons {
         let start_s = film.append(lesson);
         for object in &experiment.objects {
@@ -49,6 +57,9 @@ pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, robot: &
 /// All lessons on one timeline.
 #[derive(Default)]
 struct Film<'a> {
+    /// How many lessons come before it, and when it starts (s).
+    number: usize,
+    start_s: f64,
     times_s: Vec<f64>,
     looks: Vec<&'a LessonLook>,
     /// Where each lesson starts among the looks, and its name.
@@ -58,7 +69,7 @@ struct Film<'a> {
 impl<'a> Film<'a> {
     /// Adds a lesson; returns when it starts (s).
     fn append(&mut self, lesson: &'a LessonRecord) -> f64 {
-        let start_s = self.times_s.last().map_or(0.0, |last| last + PAUSE_S);
+        let start_s = self.times_s.last().map_or(self.start_s, |last| last + PAUSE_S);
         self.starts.push((self.looks.len(), &lesson.name));
         self.times_s.extend(lesson.looks.iter().map(|look| start_s + look.time_s));
         self.looks.extend(&lesson.looks);
@@ -128,7 +139,7 @@ impl<'a> Film<'a> {
         plot(TEACHING_FORCE.path(), style("force (N)", palette::PERSON, 1.5), &|look| look.human.force.norm())?;
         plot(TEACHING_GRIPPER.path(), style("commanded", palette::PLANNED, 1.5), &|look| look.gripper_command)?;
         let times: Vec<f64> = self.starts.iter().map(|(start, _)| self.times_s[*start]).collect();
-        let names = self.starts.iter().enumerate().map(|(number, (_, name))| format!("{}: {name}", number + 1));
+        let names = self.starts.iter().enumerate().map(|(number, (_, name))| format!("{}: {name}", self.number + number + 1));
         recorder.on(TEACHING_TIME, TEACHING_LANE.path(), &times, StateChange::new().with_state(names).columns_of_unit_batches()?)
     }
 }

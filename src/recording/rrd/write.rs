@@ -44,6 +44,7 @@ fn record(experiment: &Experiment, outcome: &RunOutcome) -> Result<Vec<u8>, Faul
         experiment,
         work: Workplace::of_steps(&outcome.steps),
         duration_s: skill_duration_s(&outcome.steps).unwrap_or_else(|| outcome.plan.duration_s()),
+        beside: &outcome.beside,
     };
     chapters.layout(&outcome.robot, !outcome.lessons.is_empty(), PlayState::Paused)?;
     chapters.lessons(&outcome.robot, &outcome.lessons)?;

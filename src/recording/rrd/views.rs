@@ -1,0 +1,87 @@
+//! The views of a layout, each with its properties.
+
+use rerun::EntityPath;
+use rerun::blueprint::components::{BackgroundKind, LinkAxis};
+use rerun::blueprint::{ContainerLike, Spatial3DView, TextLogView, TimeSeriesView, View};
+use rerun::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
+use rerun::external::re_sdk_types::blueprint::archetypes::{
+    Background, EyeControls3D, LineGrid3D, PlotLegend, TextLogColumns, TimeAxis, VisibleTimeRanges,
+};
+use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind, TimelineColumn};
+
+use super::blueprint_property::Properties;
+use super::convert;
+use super::entity_path::{SIM_TIME, TIMELINES};
+use super::layout::Shown;
+use super::palette;
+use super::recorder::Fault;
+
+/// What the plot of a coordinate is called; `others` are the colours of what stands beside the run.
+pub(super) fn motion_title(axis: &str, others: &str) -> String {
+    format!("Motion {axis} (m): taught grey, planned blue, executed orange{others}")
+}
+
+/// Makes views and keeps their properties.
+#[derive(Default)]
+pub(super) struct Views {
+    pub properties: Properties,
+}
+
+impl Views {
+    /// A scene seen by the camera, in which the whole of growing paths is seen.
+    pub fn scene(
+        &mut self,
+        title: &str,
+        origin: &str,
+        growing: impl IntoIterator<Item = EntityPath>,
+        shown: &Shown<'_>,
+    ) -> Result<View, Fault> {
+        let view = view(Spatial3DView::new(title).with_origin(origin))?;
+        let eye = EyeControls3D::new()
+            .with_position(convert::vector(&shown.camera.eye))
+            .with_look_target(convert::vector(&shown.camera.target))
+            .with_eye_up([0.0, 0.0, 1.0]);
+        self.properties.set(&view, "EyeControls3D", eye);
+        self.properties.set(&view, "Background", Background::new(BackgroundKind::SolidColor).with_color(palette::BACKGROUND));
+        let floor = rerun::components::Plane3D::new([0.0, 0.0, 1.0], shown.floor_m as f32);
+        self.properties.set(&view, "LineGrid3D", LineGrid3D::new().with_spacing(0.25).with_plane(floor));
+        let until_now = TimeRange { start: TimeRangeBoundary::Infinite, end: TimeRangeBoundary::AT_CURSOR };
+        let ranges = TIMELINES.map(|timeline| VisibleTimeRange { timeline: timeline.name.into(), range: until_now });
+        for path in growing {
+            self.properties.set_for_entity(&view, &path, VisibleTimeRanges::new(ranges.clone()));
+        }
+        Ok(view)
+    }
+
+    /// A plot over time, linked with all others. A legend would stand over the data: titles name the colours.
+    pub fn plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
+        let view = view(TimeSeriesView::new(name).with_origin(origin))?;
+        self.properties.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
+        self.properties.set(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
+        Ok(view)
+    }
+
+    /// A coordinate over time.
+    pub fn motion(&mut self, axis: &str, others: &str) -> Result<View, Fault> {
+        self.plot(&motion_title(axis, others), &format!("plots/motion/{axis}"))
+    }
+
+    pub fn events(&mut self) -> Result<View, Fault> {
+        let view = view(TextLogView::new("Events").with_origin("/events"))?;
+        let column = |kind| TextLogColumn { kind, visible: true.into() };
+        // The texts begin with the time: the viewer's own column of it is too narrow for five digits.
+        let time = TimelineColumn { timeline: SIM_TIME.name.into(), visible: false.into() };
+        let columns = TextLogColumns::new()
+            .with_timeline_columns([time])
+            .with_text_log_columns([column(TextLogColumnKind::LogLevel), column(TextLogColumnKind::Body)]);
+        self.properties.set(&view, "TextLogColumns", columns);
+        Ok(view)
+    }
+}
+
+fn view(built: impl Into<ContainerLike>) -> Result<View, Fault> {
+    match built.into() {
+        ContainerLike::View(view) => Ok(view),
+        _ => Err("rerun made a container where a view was asked for".into()),
+    }
+}

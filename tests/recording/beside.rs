@@ -1,0 +1,79 @@
+//! Contract: what was executed beside a run is in its recording under its own name, as its records have it, and in the layout's titles.
+
+use cpdmp::recording::entity_path::{self, ENTITIES, Entity};
+use cpdmp::recording::write_recording;
+use cpdmp::simulation::{Beside, RunOutcome, StepRecord};
+use nalgebra::Vector3;
+use rerun::log::Chunk;
+use tempfile::TempDir;
+
+use super::documented::assert_documented;
+use super::made_up_run::outcome;
+use super::read_rrd::{chunks, experiment, rows};
+
+/// The made-up run with two others beside it that went elsewhere, the second one for a shorter time.
+pub fn compared() -> RunOutcome {
+    let run = outcome();
+    let elsewhere = |name: &str, steps: usize, away_m: f64| {
+        let mut other = RunOutcome { steps: run.steps[..steps].to_vec(), ..run.clone() };
+        for record in &mut other.steps {
+            record.tool.translation.vector += Vector3::new(away_m, 2.0 * away_m, 3.0 * away_m);
+            record.wrench *= 1.0 + away_m;
+        }
+        Beside { name: name.into(), changes: vec!["coupling.enabled=false".into()], outcome: other }
+    };
+    let beside = vec![elsewhere("uncoupled", run.steps.len(), 0.1), elsewhere("blind", 20, 0.2)];
+    RunOutcome { beside, ..run }
+}
+
+fn written(outcome: &RunOutcome) -> Vec<Chunk> {
+    let folder = TempDir::new().expect("a folder can be made");
+    let path = folder.path().join("recording.rrd");
+    write_recording(&path, &experiment(), outcome).expect("the recording is written");
+    chunks(&path)
+}
+
+/// The numbers of an entity over simulated time (ns).
+fn series(chunks: &[Chunk], entity: &Entity, names: &[&str]) -> Vec<(i64, u64)> {
+    let scalars = rerun::Scalars::descriptor_scalars();
+    let read = |chunk: &Chunk| chunk.iter_slices::<f64>(scalars.component).map(|values| values[0].to_bits()).collect();
+    rows(chunks, &entity.of(names), &scalars, read)
+}
+
+#[test]
+fn what_was_executed_beside_the_run_is_recorded_as_its_records_have_it() {
+    let outcome = compared();
+    let chunks = written(&outcome);
+    let of = |steps: &[StepRecord], value: &dyn Fn(&StepRecord) -> f64| -> Vec<(i64, u64)> {
+        steps.iter().map(|record| ((record.time_s * 1e9).round() as i64, value(record).to_bits())).collect()
+    };
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let force = |record: &StepRecord| record.wrench[axis];
+        let error = |record: &StepRecord| record.wrench[axis] - record.expected_force[axis];
+        for one in &outcome.beside {
+            let place = |record: &StepRecord| record.tool.translation.vector[axis];
+            let steps = &one.outcome.steps;
+            assert_eq!(series(&chunks, &entity_path::BESIDE_MOTION, &[name, &one.name]), of(steps, &place));
+            assert_eq!(series(&chunks, &entity_path::BESIDE_FORCE, &[name, &one.name]), of(steps, &force));
+            assert_eq!(series(&chunks, &entity_path::BESIDE_ERROR, &[name, &one.name]), of(steps, &error));
+        }
+        assert_eq!(series(&chunks, &entity_path::BESIDE_ERROR, &[name, "executed"]), of(&outcome.steps, &error));
+    }
+}
+
+/// Runs that are executed say more than the plan of a baseline.
+#[test]
+fn the_plan_of_the_baseline_gives_way_to_executed_runs() {
+    let (with, without) = (written(&compared()), written(&outcome()));
+    let has = |chunks: &[Chunk], path: &Entity| chunks.iter().any(|chunk| *chunk.entity_path() == path.path());
+    assert!(!has(&with, &entity_path::BASELINE_PATH) && has(&without, &entity_path::BASELINE_PATH));
+    let beside = |chunk: &Chunk| chunk.entity_path().to_string().contains("beside");
+    assert!(!without.iter().any(beside));
+}
+
+/// Together, a recording with and one without a comparison hold everything that is documented, and nothing else.
+#[test]
+fn entities_are_those_that_are_documented() {
+    let chunks: Vec<Chunk> = [written(&compared()), written(&outcome())].concat();
+    assert_documented(&chunks, &ENTITIES.iter().map(|entity| entity.pattern).collect::<Vec<_>>());
+}
