@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::WrenchValidation;
 use super::table::{figure, table};
 use crate::learning::selection::{CrossValidation, ErrorSize, MovementError, Reproduction};
 
@@ -21,6 +22,8 @@ pub struct ErrorRow {
     pub max_columns: Vec<f64>,
     /// Root mean square of the angle between the orientations (rad), when both have one.
     pub rms_orientation_rad: Option<f64>,
+    /// Root mean square of the difference between the gripper's openings (0 closed, 1 open), when both have one.
+    pub rms_gripper: Option<f64>,
 }
 
 /// One demonstration, predicted by skills that were learned without it.
@@ -57,6 +60,8 @@ pub struct ValidationSection {
     pub better: &'static str,
     /// How many demonstrations the skill predicts better than the baseline.
     pub demonstrations_won: usize,
+    /// The wrench that the force model expects, when there is one; the baseline has none.
+    pub wrench: Option<WrenchValidation>,
 }
 
 impl ErrorRow {
@@ -70,6 +75,7 @@ impl ErrorRow {
             rms_columns: each(|size| size.rms),
             max_columns: each(|size| size.max),
             rms_orientation_rad: error.orientation_rad.map(|size| size.rms),
+            rms_gripper: error.gripper.map(|size| size.rms),
         }
     }
 
@@ -81,9 +87,19 @@ impl ErrorRow {
     }
 }
 
+/// The error of the orientation for people (deg).
+pub(super) fn turn(error: &ErrorRow) -> Option<String> {
+    error.rms_orientation_rad.map(|angle| figure(angle.to_degrees()))
+}
+
+/// The error of the gripper's opening for people.
+pub(super) fn opening(error: &ErrorRow) -> Option<String> {
+    error.rms_gripper.map(figure)
+}
+
 impl ValidationSection {
-    /// From what cross-validation found; `None` when it found nothing.
-    pub fn of(found: &CrossValidation) -> Option<Self> {
+    /// From what cross-validation found, for wrench columns of these names; `None` when it found nothing.
+    pub fn of(found: &CrossValidation, wrench: &[String]) -> Option<Self> {
         let row = |of: Option<MovementError>| of.map(|error| ErrorRow::of(None, &error));
         let (with_ends, lwr) = (row(found.with_ends())?, row(found.lwr())?);
         let demonstrations = found.held_out.iter().map(|held| ValidationRow {
@@ -102,6 +118,7 @@ impl ValidationSection {
             demonstrations_won: found.held_out.iter().filter(|held| held.with_ends.path.rms < held.lwr.path.rms).count(),
             with_ends,
             lwr,
+            wrench: WrenchValidation::of(wrench, found),
         })
     }
 
@@ -109,16 +126,21 @@ impl ValidationSection {
     pub fn lines(&self, unit: &str) -> Vec<String> {
         let heading =
             ["left out", "outside", "rms", "max", "rms, parameters alone", "rms, LWR-DMP", "max, LWR-DMP", "better"].map(str::to_owned);
+        let mut heading = heading.to_vec();
+        for (name, has) in [("rms turn deg", turn(&self.with_ends)), ("rms gripper", opening(&self.with_ends))] {
+            heading.extend(has.iter().flat_map(|_| [name.to_owned(), format!("{name}, LWR-DMP")]));
+        }
         let better = |ours: f64, theirs: f64| if ours < theirs { "CPDMP" } else { "LWR-DMP" }.to_owned();
         let row = |name: &str, outside: String, ends: &ErrorRow, alone: &ErrorRow, lwr: &ErrorRow| {
             let numbers = [ends.rms, ends.max, alone.rms, lwr.rms, lwr.max].map(figure);
             let mut row = vec![name.to_owned(), outside];
             row.extend(numbers);
             row.push(better(ends.rms, lwr.rms));
+            row.extend([turn(ends), turn(lwr), opening(ends), opening(lwr)].into_iter().flatten());
             row
         };
         let outside = |ratio: Option<f64>| ratio.map_or("∞".to_owned(), |ratio| format!("{:.0} %", 100.0 * ratio));
-        let mut rows = vec![heading.to_vec()];
+        let mut rows = vec![heading];
         rows.extend(
             self.demonstrations
                 .iter()

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{ChoiceSection, DataSection, ErrorRow, FitSection, Outcome, SkillSection, ValidationSection};
+use super::{ChoiceSection, DataSection, ErrorRow, FitSection, Outcome, SkillSection, ValidationSection, WrenchRow};
 use crate::demonstration::Dataset;
 use crate::learning::selection::{CrossValidation, Reproduction};
 use crate::learning::{Learned, LearningError, Preparation};
@@ -47,6 +47,10 @@ pub struct LearnReport {
     pub reproduction: Vec<ErrorRow>,
     /// Mean rms and largest error over all of them.
     pub reproduction_overall: Option<ErrorRow>,
+    /// The error of the wrench that the force model expects, told the demonstration's `theta_f`; none without a force model.
+    pub wrench_reproduction: Vec<WrenchRow>,
+    /// Mean rms and largest error over all of them.
+    pub wrench_reproduction_overall: Option<WrenchRow>,
     /// Predictions of what was left out, when they were asked for.
     pub cross_validation: Option<ValidationSection>,
     /// What a person should know.
@@ -92,6 +96,8 @@ impl LearnReport {
     ) -> Result<Self, LearningError> {
         let report = &learned.report;
         let (rows, overall) = ErrorRow::reproduction(reproduction);
+        let skill = SkillSection::of(&learned.skill)?;
+        let (wrench_rows, wrench_overall) = WrenchRow::reproduction(&skill.wrench, reproduction);
         Ok(Self {
             schema_version: 1,
             version: env!("CARGO_PKG_VERSION"),
@@ -102,7 +108,6 @@ impl LearnReport {
             seed,
             data: DataSection::of(dataset, notes),
             preparation: PreparationSection::of(&report.preparation),
-            skill: SkillSection::of(&learned.skill)?,
             motion_fit: report.motion.as_ref().map(FitSection::of),
             force_fit: report.force.as_ref().map(FitSection::of),
             choices: ChoiceSection::of(report),
@@ -110,7 +115,10 @@ impl LearnReport {
             forcing_noise: report.forcing_noise.iter().map(|variance| variance.max(0.0).sqrt()).collect(),
             reproduction: rows,
             reproduction_overall: overall,
-            cross_validation: cross_validation.and_then(ValidationSection::of),
+            wrench_reproduction: wrench_rows,
+            wrench_reproduction_overall: wrench_overall,
+            cross_validation: cross_validation.and_then(|found| ValidationSection::of(found, &skill.wrench)),
+            skill,
             warnings: report.warnings.clone(),
         })
     }

@@ -1,7 +1,9 @@
 //! The report of `cpdmp learn` for people.
 
+use super::error_section::{opening, turn};
 use super::table::{figure, table};
-use super::{ChoiceSection, ErrorRow, FitSection, LearnReport};
+use super::wrench_section::rows_of;
+use super::{ChoiceSection, ErrorRow, FitSection, LearnReport, WrenchValidation};
 
 const BOLD: &str = "\u{1b}[1m";
 const PLAIN: &str = "\u{1b}[0m";
@@ -27,11 +29,18 @@ impl LearnReport {
         lines.push(format!("  sensor noise {}", self.noise()));
         lines.extend([String::new(), heading(&format!("Reproduction: error in {unit}, at equal time fractions"))]);
         lines.extend(self.reproduction_table());
+        if !self.wrench_reproduction.is_empty() {
+            lines.extend([String::new(), heading("Reproduction of the wrench: error of what is expected, at equal time fractions")]);
+            let rows = self.wrench_reproduction.iter().chain(&self.wrench_reproduction_overall);
+            lines.extend(rows_of(vec!["demonstration".to_owned()], rows, |_| Vec::new()));
+        }
         if let Some(validation) = &self.cross_validation {
-            let mut section = validation.lines(unit);
-            section[0] = heading(&section[0]);
-            lines.push(String::new());
-            lines.extend(section);
+            let wrench = validation.wrench.as_ref().map(WrenchValidation::lines);
+            for mut section in std::iter::once(validation.lines(unit)).chain(wrench) {
+                section[0] = heading(&section[0]);
+                lines.push(String::new());
+                lines.extend(section);
+            }
         }
         if !self.warnings.is_empty() {
             lines.push(String::new());
@@ -54,6 +63,8 @@ impl LearnReport {
     fn reproduction_table(&self) -> Vec<String> {
         let mut first: Vec<String> = ["demonstration", "rms", "max"].map(str::to_owned).to_vec();
         first.extend(self.skill.columns.iter().map(|name| format!("rms {name}")));
+        let also = self.reproduction_overall.as_ref().map(|all| [("rms turn deg", turn(all)), ("rms gripper", opening(all))]);
+        first.extend(also.into_iter().flatten().filter(|(_, has)| has.is_some()).map(|(name, _)| name.to_owned()));
         let rows = self.reproduction.iter().chain(&self.reproduction_overall).map(row);
         table(&std::iter::once(first).chain(rows).collect::<Vec<_>>())
     }
@@ -62,6 +73,7 @@ impl LearnReport {
 fn row(error: &ErrorRow) -> Vec<String> {
     let mut row = vec![error.demonstration.clone().unwrap_or("all".to_owned()), figure(error.rms), figure(error.max)];
     row.extend(error.rms_columns.iter().map(|rms| figure(*rms)));
+    row.extend(turn(error).into_iter().chain(opening(error)));
     row
 }
 

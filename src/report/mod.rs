@@ -30,6 +30,7 @@ mod skill_section;
 mod table;
 mod text;
 mod verdict;
+mod wrench_section;
 
 pub use beside_section::BesideReport;
 pub use check_report::{CheckReport, Checked, InputFault};
@@ -57,3 +58,4 @@ pub use schemas::{check_schema, learn_schema, manifest_schema, report_schema, wr
 pub use skill_section::{FitSection, ParameterRange, SkillSection, StateRow};
 pub use table::{figure, table};
 pub use text::text;
+pub use wrench_section::{WrenchErrorSize, WrenchRow, WrenchValidation};

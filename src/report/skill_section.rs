@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::Window;
 use super::table::{figure, table};
-use crate::learning::cpdmp::{Segment, Shaping, Statistic, compliance_windows, segments};
+use crate::learning::cpdmp::{Segment, Shaping, Statistic, compliance_windows, segments, squared_unit};
 use crate::learning::phmm::FitStatus;
 use crate::learning::{FitReport, LearningError, ParameterSpace, Skill};
 
@@ -41,7 +41,9 @@ pub struct SkillSection {
     pub states: Vec<StateRow>,
     /// What decides about compliance: `literal`, `conditional` or `between_demonstration`.
     pub statistic: &'static str,
-    /// `sigma` (m^2); none when no threshold separates the states.
+    /// Unit of the statistic and of the threshold: `m^2`, of joints `rad^2`.
+    pub statistic_unit: &'static str,
+    /// `sigma` (`statistic_unit`); none when no threshold separates the states.
     pub threshold_m2: Option<f64>,
     /// When it complies, at the learned duration.
     pub windows: Vec<Window>,
@@ -75,7 +77,7 @@ pub struct StateRow {
     pub mean: Vec<f64>,
     /// Standard deviation of the forcing term, given the phase (unit of each column).
     pub spread: Vec<f64>,
-    /// The statistic that is held against the threshold (m^2).
+    /// The statistic that is held against the threshold (`statistic_unit` of the skill).
     pub value_m2: f64,
     /// -1 complies, 0 is stiff.
     pub beta: f64,
@@ -149,6 +151,7 @@ impl SkillSection {
                 Statistic::Conditional => "conditional",
                 Statistic::BetweenDemonstration => "between_demonstration",
             },
+            statistic_unit: squared_unit(&motion.columns),
             threshold_m2: Some(skill.compliance.threshold_m2).filter(|sigma| sigma.is_finite()),
             windows: windows.iter().map(|w| window(w.start, w.end)).collect(),
             provenance: skill.provenance.iter().cloned().collect(),
@@ -188,9 +191,9 @@ impl SkillSection {
 
     fn state_table(&self) -> Vec<String> {
         let mut heading: Vec<String> = ["state", "from s", "to s", "for s"].map(str::to_owned).to_vec();
-        heading.extend(self.columns.iter().map(|name| format!("mean {name}")));
-        heading.extend(self.columns.iter().map(|name| format!("std {name}")));
-        heading.extend([self.statistic.replace("_", " ") + " m²", "beta".to_owned(), String::new()]);
+        heading.extend(self.columns.iter().map(|name| format!("mean f {name}")));
+        heading.extend(self.columns.iter().map(|name| format!("std f {name}")));
+        heading.extend([format!("{} {}", self.statistic.replace('_', " "), self.shown_unit()), "beta".to_owned(), String::new()]);
         let time = |t: Option<f64>| t.map_or("-".to_owned(), |t| format!("{t:.2}"));
         let row = |state: &StateRow| {
             let mut row = vec![state.index.to_string(), time(state.from_s), time(state.to_s), format!("{:.2}", state.duration_s)];
@@ -205,8 +208,15 @@ impl SkillSection {
     fn compliance(&self) -> String {
         let windows: Vec<String> = self.windows.iter().map(|w| format!("{:.2} … {:.2} s", w.start_s, w.end_s)).collect();
         let when = if windows.is_empty() { "never".to_owned() } else { windows.join(", ") };
-        let sigma = self.threshold_m2.map_or("none that separates the states".to_owned(), |sigma| format!("{} m²", figure(sigma)));
+        let sigma = self
+            .threshold_m2
+            .map_or("none that separates the states".to_owned(), |sigma| format!("{} {}", figure(sigma), self.shown_unit()));
         format!("  complies     {when} (threshold sigma: {sigma})")
+    }
+
+    /// The unit of the statistic for people.
+    fn shown_unit(&self) -> String {
+        self.statistic_unit.replace("^2", "²")
     }
 }
 

@@ -16,6 +16,7 @@ mod learning_noise;
 mod learning_orientation;
 mod learning_pick_and_place;
 mod learning_selection;
+mod learning_validation;
 mod phmm_inference;
 mod phmm_laws;
 mod pick_and_place;

@@ -21,7 +21,7 @@ pub(crate) use force_coupling::JACOBIAN_ROWS;
 pub use force_coupling::{CouplingMode, CouplingSettings, CouplingSpace, ForceConvention, ForceCoupling, Switching, wrench_at_tool};
 pub use force_model::ForceModel;
 pub(super) use motion_model::spatial_columns;
-pub use motion_model::{MotionModel, Shaping, spread_unit};
+pub use motion_model::{MotionModel, Shaping, spread_unit, squared_unit};
 pub use predictive::Predictive;
 pub use segments::{ComplianceWindow, Segment, compliance_windows, segments};
 pub use shaping_function::ShapingFunction;

@@ -96,11 +96,22 @@ impl MotionModel {
 /// The unit of a thousandth of the spatial columns, for showing the root of a statistic of theirs: `mm`, of joints `mrad`.
 #[must_use]
 pub fn spread_unit(columns: &[String]) -> &'static str {
+    by_unit(columns, ["mm", "mrad", "1e-3 of the columns' units"])
+}
+
+/// The unit of a statistic of the spatial columns: `m^2`, of joints `rad^2`.
+#[must_use]
+pub fn squared_unit(columns: &[String]) -> &'static str {
+    by_unit(columns, ["m^2", "rad^2", "columns' units squared"])
+}
+
+/// What stands for spatial columns in m, for those in rad, and for others.
+fn by_unit(columns: &[String], [metres, radians, others]: [&'static str; 3]) -> &'static str {
     let ends = |unit: &str| spatial_columns(columns).iter().all(|j| columns[*j].ends_with(unit));
     match (ends("_m"), ends("_rad")) {
-        (true, _) => "mm",
-        (_, true) => "mrad",
-        _ => "1e-3 of the columns' units",
+        (true, _) => metres,
+        (_, true) => radians,
+        _ => others,
     }
 }
 

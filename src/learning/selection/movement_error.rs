@@ -16,7 +16,7 @@ pub struct ErrorSize {
 }
 
 impl ErrorSize {
-    fn of(errors: impl Iterator<Item = f64>) -> Self {
+    pub(super) fn of(errors: impl Iterator<Item = f64>) -> Self {
         let (mut squares, mut max, mut count) = (0.0, 0.0f64, 0.0);
         for e in errors {
             squares += e * e;
@@ -43,6 +43,8 @@ pub struct MovementError {
     pub path: ErrorSize,
     /// Angle between the orientations (rad), when both have one.
     pub orientation_rad: Option<ErrorSize>,
+    /// Difference between the gripper's openings (-), when both have one.
+    pub gripper: Option<ErrorSize>,
 }
 
 /// Intervals of the grid of time fractions on which movements are compared.
@@ -69,10 +71,12 @@ impl MovementError {
         let spatial = spatial_columns(columns);
         let distance = |t: usize| spatial.iter().map(|j| off[(t, *j)].powi(2)).sum::<f64>().sqrt();
         let turns = a.orientations().zip(b.orientations());
+        let openings = a.gripper().zip(b.gripper());
         Ok(Self {
             columns: off.column_iter().map(|column| ErrorSize::of(column.iter().copied())).collect(),
             path: ErrorSize::of((0..off.nrows()).map(distance)),
             orientation_rad: turns.map(|(a, b)| ErrorSize::of(a.iter().zip(&b).map(|(a, b)| a.angle_to(b)))),
+            gripper: openings.map(|(a, b)| ErrorSize::of((a - b).iter().copied())),
         })
     }
 
@@ -81,16 +85,21 @@ impl MovementError {
     pub fn over(errors: &[&Self]) -> Option<Self> {
         let d = errors.first()?.columns.len();
         let size = |of: &dyn Fn(&Self) -> ErrorSize| ErrorSize::over(&errors.iter().map(|e| of(e)).collect::<Vec<_>>());
-        let turns: Option<Vec<ErrorSize>> = errors.iter().map(|e| e.orientation_rad).collect();
+        let of_all = |of: fn(&Self) -> Option<ErrorSize>| {
+            let sizes: Option<Vec<ErrorSize>> = errors.iter().map(|e| of(e)).collect();
+            sizes.map(|sizes| ErrorSize::over(&sizes))
+        };
         Some(Self {
             columns: (0..d).map(|j| size(&|e| e.columns[j])).collect(),
             path: size(&|e| e.path),
-            orientation_rad: turns.map(|turns| ErrorSize::over(&turns)),
+            orientation_rad: of_all(|e| e.orientation_rad),
+            gripper: of_all(|e| e.gripper),
         })
     }
 }
 
-fn on_the_grid(trajectory: &Trajectory) -> Result<Trajectory, LearningError> {
+/// A movement at the time fractions at which movements are compared.
+pub(super) fn on_the_grid(trajectory: &Trajectory) -> Result<Trajectory, LearningError> {
     Ok(trajectory.resampled(INTERVALS / trajectory.duration_s())?)
 }
 
@@ -100,15 +109,16 @@ mod tests {
 
     #[test]
     fn a_shifted_line_is_off_by_the_shift_whatever_its_speed_and_rate() {
-        let columns = ["x_m", "q_rad"].map(str::to_owned);
+        let columns = ["x_m", "q_rad", "gripper"].map(str::to_owned);
         let line = |samples: usize, duration: f64, shift: f64| {
             let u = |t: usize| t as f64 / (samples - 1) as f64;
-            let values = DMatrix::from_fn(samples, 2, |t, j| if j == 0 { u(t) + shift } else { 2.0 * u(t) });
+            let values = DMatrix::from_fn(samples, 3, |t, j| [u(t) + shift, 2.0 * u(t), 0.5 + shift][j]);
             Trajectory::new((0..samples).map(|t| duration * u(t)).collect(), columns.to_vec(), values).unwrap()
         };
-        let error = MovementError::between(&line(11, 3.0, 0.25), &line(1000, 0.7, 0.0), &columns).unwrap();
+        let error = MovementError::between(&line(11, 3.0, 0.25), &line(1000, 0.7, 0.0), &columns[..2]).unwrap();
         assert!((error.path.rms - 0.25).abs() < 1e-12 && (error.path.max - 0.25).abs() < 1e-12);
         assert!(error.columns[1].max < 1e-12 && error.orientation_rad.is_none());
+        assert!(error.gripper.is_some_and(|off| (off.rms - 0.25).abs() < 1e-12 && (off.max - 0.25).abs() < 1e-12));
         let both = MovementError::over(&[&error, &error]).unwrap();
         assert!((both.path.rms - 0.25).abs() < 1e-12);
     }

@@ -1,7 +1,7 @@
 //! How well a skill repeats what it was learned from.
 
 use super::super::{ExecutionSettings, LearningError, Skill};
-use super::MovementError;
+use super::{ErrorSize, MovementError, wrench_error};
 use crate::demonstration::{Dataset, Demonstration};
 
 /// The error of repeating one demonstration that was learned from.
@@ -11,6 +11,8 @@ pub struct Reproduction {
     pub demonstration: String,
     /// The error with the demonstration's start, goal and parameters given.
     pub error: MovementError,
+    /// The error of the expected wrench for the demonstration's `theta_f`, per column of the force model; none without one.
+    pub wrench: Vec<ErrorSize>,
 }
 
 /// The error of `skill` against every demonstration of `dataset`, each asked for with its own parameters, start and goal.
@@ -20,7 +22,7 @@ pub struct Reproduction {
 pub fn reproduction(dataset: &Dataset, skill: &Skill) -> Result<Vec<Reproduction>, LearningError> {
     let one = |demonstration: &Demonstration| {
         let error = MovementError::of(skill, &with_ends(demonstration, skill)?, &demonstration.trajectory)?;
-        Ok(Reproduction { demonstration: demonstration.name.clone(), error })
+        Ok(Reproduction { demonstration: demonstration.name.clone(), error, wrench: wrench_error(skill, demonstration)? })
     };
     dataset.demonstrations.iter().map(one).collect()
 }
