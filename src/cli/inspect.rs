@@ -86,7 +86,9 @@ fn beginning(path: &Path) -> std::io::Result<String> {
 
 fn dataset(path: &Path) -> Result<Content, Failure> {
     let import = Dataset::import(path).map_err(|error| Failure::of_data(path, &error))?;
-    Ok(Content::Dataset { data: DataSection::of(&import.dataset, import.notes) })
+    let warnings = import.warnings.iter().map(|warning| format!("warning: {warning}"));
+    let notes = import.notes.iter().cloned().chain(warnings).collect();
+    Ok(Content::Dataset { data: DataSection::of(&import.dataset, notes) })
 }
 
 fn run(folder: &Path) -> Result<Content, Failure> {

@@ -42,7 +42,7 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
         return Err(Failure::new(Outcome::InvalidInput, [help.to_owned()]));
     }
     let path = &arguments.dataset;
-    let (dataset, notes) = dataset(arguments).map_err(|error| Failure::of_learning(path, &error))?;
+    let Import { dataset, notes, warnings } = dataset(arguments).map_err(|error| Failure::of_learning(path, &error))?;
     let first = arguments.init.as_deref().map(read_skill).transpose()?;
     let seed = global.seed.unwrap_or(0);
     let of_data = |error: LearningError| Failure::of_learning(arguments.init.as_ref().unwrap_or(path), &error);
@@ -55,6 +55,7 @@ fn learned(arguments: &Learn, global: &Global, terminal: &Terminal) -> Result<Le
     let repeated = reproduction(&dataset, &learned.skill).map_err(of_data)?;
     let validated = arguments.cross_validate.then(|| cross_validate(&dataset, &settings, seed)).transpose().map_err(of_data)?;
     let mut report = LearnReport::of((path.clone(), &dataset), notes, &learned, &repeated, validated.as_ref(), seed).map_err(of_data)?;
+    report.warnings.splice(0..0, warnings);
     if let Some(out) = &global.out {
         let text = learned.skill.to_json().map_err(of_data)?;
         replace_file(out, text.as_bytes(), Replaceable::Skill)?;
@@ -122,11 +123,13 @@ fn settings(arguments: &Learn, global: &Global) -> Result<(LearningSettings, Vec
     Ok((settings, odd))
 }
 
-/// The dataset, with the columns and parameters that the flags ask for, and what reading it did to the data.
-fn dataset(arguments: &Learn) -> Result<(Dataset, Vec<String>), LearningError> {
-    let Import { mut dataset, notes } = Dataset::import(&arguments.dataset)?;
+/// The dataset, with the columns and parameters that the flags ask for, and what reading it did to the data and made of it.
+fn dataset(arguments: &Learn) -> Result<Import, LearningError> {
+    let Import { mut dataset, notes, mut warnings } = Dataset::import(&arguments.dataset)?;
     if !arguments.motion.is_empty() {
         dataset.motion.clone_from(&arguments.motion);
+        // Who lists the columns knows what they are.
+        warnings.clear();
     }
     if !arguments.wrench.is_empty() || arguments.no_wrench {
         dataset.wrench.clone_from(&arguments.wrench);
@@ -139,5 +142,5 @@ fn dataset(arguments: &Learn) -> Result<(Dataset, Vec<String>), LearningError> {
     };
     let dataset = dataset.with_parameter_source(source);
     dataset.check()?;
-    Ok((dataset, notes))
+    Ok(Import { dataset, notes, warnings })
 }

@@ -78,14 +78,7 @@ impl Dataset {
                 if key == "wrench" && self.motion.contains(name) {
                     faults.push(Fault::new(key, format!("{name}, which is in motion too"), "every column in one of the two"));
                 }
-                if let Some(unit) = ["_mm", "_cm", "_km", "_deg", "_ms", "_us", "_kn", "_nmm"].iter().find(|unit| name.ends_with(**unit)) {
-                    let found = format!("{name}, in {}", &unit[1..]);
-                    faults.push(Fault::new(
-                        key,
-                        found,
-                        "SI units: _m, _rad, _n, _nm, _s (dataset.toml: [columns] x_m = { from = \"x_mm\", unit = \"mm\" })",
-                    ));
-                }
+                faults.extend(other_unit(key, name));
             }
         }
         faults
@@ -115,6 +108,27 @@ impl Dataset {
         }
         faults
     }
+}
+
+/// Endings of names in other units, how `[columns]` calls the unit, and the ending in the SI unit.
+const OTHER_UNITS: [(&str, &str, &str); 8] = [
+    ("_mm", "mm", "_m"),
+    ("_cm", "cm", "_m"),
+    ("_km", "km", "_m"),
+    ("_deg", "deg", "_rad"),
+    ("_ms", "ms", "_s"),
+    ("_us", "us", "_s"),
+    ("_kn", "kN", "_n"),
+    ("_nmm", "Nmm", "_nm"),
+];
+
+/// A column of `key` that counts in another unit, and what brings it to SI.
+fn other_unit(key: &str, name: &str) -> Option<Fault> {
+    let (stem, unit, si) = OTHER_UNITS.iter().find_map(|(ending, unit, si)| Some((name.strip_suffix(ending)?, unit, si)))?;
+    let plain = stem.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    let target = if plain { format!("{stem}{si}") } else { format!("\"{stem}{si}\"") };
+    let mapping = format!("dataset.toml: [columns] {target} = {{ from = \"{name}\", unit = \"{unit}\" }}");
+    Some(Fault::new(key, format!("{name}, in {unit}"), format!("SI units: _m, _rad, _n, _nm, _s ({mapping})")))
 }
 
 fn names(theta: &[(String, f64)]) -> Vec<String> {

@@ -49,6 +49,7 @@ mod align_features;
 mod column_map;
 mod csv;
 mod dataset;
+mod doubts;
 mod error;
 mod list;
 mod list_entries;

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
+use super::doubts::constant_columns;
 use super::list::{LIST, List};
 use super::list_entries::Entry;
 use super::notes::{Notes, about};
@@ -20,6 +21,8 @@ pub struct Import {
     pub dataset: Dataset,
     /// One sentence each, in the order of the files; empty when everything was taken as it stands.
     pub notes: Vec<String>,
+    /// What may be another thing than it was taken for; empty when the list says which columns move.
+    pub warnings: Vec<String>,
 }
 
 impl Dataset {
@@ -99,7 +102,9 @@ impl Reader {
         }
         if self.faults.is_empty() {
             about(&dataset, &mut self.notes);
-            Ok(Import { dataset, notes: self.notes.in_words() })
+            let listed = self.list.motion.is_some();
+            let warnings = if listed { Vec::new() } else { constant_columns(&dataset.demonstrations, &dataset.motion) };
+            Ok(Import { dataset, notes: self.notes.in_words(), warnings })
         } else {
             self.faults.truncate(MOST);
             Err(DemonstrationError::Invalid(self.faults))
