@@ -223,7 +223,7 @@ pub(super) struct Shell {
     pub shell: clap_complete::Shell,
 }
 
-/// What every command understands. A flag wins over the environment, that over the scenario, that over the default.
+/// What several commands understand (`global_flags` says which). A flag wins over the environment, that over the scenario, that over the default.
 #[derive(Debug, Args)]
 pub(super) struct Global {
     /// Override a key of the scenario (`object.toy.radius_m=0.035`), or of [learning]; may be repeated
@@ -327,15 +327,5 @@ fn threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(count @ 1..=1024) => Ok(count),
         _ => Err("a whole number, 1 … 1024".to_owned()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use clap::CommandFactory;
-
-    #[test]
-    fn the_command_line_is_consistent() {
-        super::Cli::command().debug_assert();
     }
 }

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::Man;
 
-use super::args::Cli;
+use super::global_flags;
 use super::terminal::Terminal;
 use crate::report::{Outcome, write_file};
 
 /// Prints the manual page, or writes one for the program and one for each command to a folder.
 pub(super) fn man(folder: Option<&Path>, terminal: &Terminal) -> Outcome {
-    let mut program = Cli::command();
+    let mut program = global_flags::command();
     program.build();
     let Some(folder) = folder else {
         terminal.result(&page(&program));

@@ -20,6 +20,7 @@ mod figures;
 mod files;
 mod generate;
 mod generate_request;
+mod global_flags;
 mod inspect;
 mod judged_run;
 mod learn;
@@ -56,24 +57,35 @@ mod web_page;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use clap::Parser;
+use clap::FromArgMatches;
 
 use self::args::{Cli, Command};
+use self::failure::Failure;
 use self::terminal::Terminal;
 use crate::report::Outcome;
 
 /// The whole program: reads the command line, does what it says, and returns the exit code.
 pub fn main() -> ExitCode {
     std::panic::set_hook(Box::new(report_bug));
-    let outcome = std::panic::catch_unwind(|| match Cli::try_parse() {
-        Ok(cli) => dispatch(&cli),
+    let outcome = std::panic::catch_unwind(|| match typed() {
+        Ok((cli, without_effect)) => dispatch(&cli, without_effect),
         Err(error) => told_by_clap(&error),
     });
     ExitCode::from(outcome.unwrap_or(Outcome::InternalError).exit_code())
 }
 
-fn dispatch(cli: &Cli) -> Outcome {
+/// The command line, and what was typed in vain.
+fn typed() -> Result<(Cli, Vec<String>), clap::Error> {
+    let matches = global_flags::command().try_get_matches()?;
+    let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut global_flags::command()))?;
+    Ok((cli, global_flags::without_effect(&matches)))
+}
+
+fn dispatch(cli: &Cli, without_effect: Vec<String>) -> Outcome {
     let terminal = Terminal::new(&cli.global);
+    if !without_effect.is_empty() {
+        return Failure::new(Outcome::Usage, without_effect).tell(&terminal);
+    }
     if cli.global.format.is_for_verdicts() && !matches!(cli.command, Command::Check(_)) {
         terminal.error("error: --format junit and --format github are for cpdmp check: this command prints human or json\n");
         return Outcome::Usage;

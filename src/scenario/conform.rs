@@ -165,7 +165,8 @@ fn owner_of(name: &str, shape: &Shape, path: &str) -> Option<String> {
         return Some(if path.is_empty() {
             "it belongs to the top of the file, before the first [table]".to_owned()
         } else {
-            format!("it belongs to [{path}]")
+            let whole = if path.starts_with('[') { String::new() } else { format!(": `{path}.{name}`") };
+            format!("it belongs to [{path}]{whole}")
         });
     }
     let variant = shape.variants.iter().find(|variant| variant.keys.iter().any(|key| key.name == name));
