@@ -11,10 +11,11 @@ const PANEL_PT: [f64; 2] = [600.0, 190.0];
 /// The axes of the robot's base frame, with what they are called.
 const AXES: [(&str, &str); 3] = [("x", "x: forwards"), ("y", "y: to the left"), ("z", "z: upwards")];
 
-/// Measured less expected force over time, of the run and of everything beside it; none when nothing is, or no force is expected.
+/// Measured less expected force over time, of the run and of what stands beside it and expects forces; none when nothing does, or the run
+/// expects none.
 #[must_use]
 pub fn arm_forces(run: &ArmRun) -> Option<Figure> {
-    if run.beside.is_empty() || run.skill.force.is_none() {
+    if !run.beside.iter().any(|(_, steps)| expects(steps)) || run.skill.force.is_none() {
         return None;
     }
     let panels = (0..3).map(|axis| panel(run, axis)).collect();
@@ -26,7 +27,12 @@ fn panel(run: &ArmRun, axis: usize) -> Chart {
     let mut chart = Chart::plot(title, [Axis::new("time (s)"), Axis::new(&format!("unexpected force {name} (N)"))]);
     chart.marks.extend(run.compliant_windows());
     let unexpected = |step: &StepRecord| step.wrench[axis] - step.expected_force[axis];
-    chart.marks.extend(run.others(|steps| over_time(steps, unexpected)));
+    chart.marks.extend(run.others(|steps| expects(steps).then(|| over_time(steps, unexpected))));
     chart.marks.push(Mark::line("executed", EXECUTED, 1.1, run.executed(unexpected)));
     chart
+}
+
+/// Whether a force is ever expected: a skill without a model of the forces, as the baseline, expects none, and its whole force would be drawn.
+fn expects(steps: &[StepRecord]) -> bool {
+    steps.iter().any(|step| step.expected_force.norm() > 0.0)
 }

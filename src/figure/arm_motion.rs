@@ -34,7 +34,7 @@ fn panel(run: &ArmRun, axis: usize) -> Chart {
         chart.marks.extend(run.states.iter().map(|state| ellipse(run, state, of_column, &planned)));
         chart.marks.push(Mark::line("planned", PLANNED, 1.6, planned));
     }
-    chart.marks.extend(run.others(|steps| over_time(steps, |step| step.tool.translation.vector[axis])));
+    chart.marks.extend(run.others(|steps| Some(over_time(steps, |step| step.tool.translation.vector[axis]))));
     chart.marks.push(Mark::line("executed", EXECUTED, 1.6, run.executed(|step| step.tool.translation.vector[axis])));
     chart
 }

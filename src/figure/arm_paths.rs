@@ -38,7 +38,7 @@ pub fn arm_paths(run: &ArmRun) -> Option<Figure> {
         }
         chart.marks.push(Mark::line("planned", PLANNED, 1.6, across(&planned[axes[0]], &planned[axes[1]])));
         let path = |steps: &[StepRecord]| steps.iter().map(|step| axes.map(|axis| step.tool.translation.vector[axis])).collect::<Curve>();
-        chart.marks.extend(run.others(path));
+        chart.marks.extend(run.others(|steps| Some(path(steps))));
         let executed = path(run.steps);
         let start = executed.first().copied();
         chart.marks.push(Mark::line("executed", EXECUTED, 1.6, executed));

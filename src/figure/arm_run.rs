@@ -81,12 +81,12 @@ impl<'a> ArmRun<'a> {
         Self { beside: others, ..self }
     }
 
-    /// What stands beside the run as lines: `points` of its records, in its colour, under its name.
-    pub(super) fn others(&self, points: impl Fn(&[StepRecord]) -> Curve) -> impl Iterator<Item = Mark> {
+    /// What stands beside the run as lines: `points` of its records, in its colour, under its name; none where those are none.
+    pub(super) fn others(&self, points: impl Fn(&[StepRecord]) -> Option<Curve>) -> impl Iterator<Item = Mark> {
         let line = move |(index, (name, steps)): (usize, &(&str, &[StepRecord]))| {
-            Mark::line(name, BESIDE[index % BESIDE.len()].0, 1.1, points(steps))
+            Some(Mark::line(name, BESIDE[index % BESIDE.len()].0, 1.1, points(steps)?))
         };
-        self.beside.iter().enumerate().map(line)
+        self.beside.iter().enumerate().filter_map(line)
     }
 
     /// The plan along a column; nothing when the skill does not move it.

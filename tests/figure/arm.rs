@@ -236,4 +236,11 @@ fn what_was_executed_beside_the_run_is_drawn_in_a_colour_of_its_own() {
         assert!(marks(&paths.panels[0], &one.name).iter().all(|mark| mark.color == color));
     }
     assert!(arm_forces(&parts.run()).is_none());
+    // Who expects no force has no force that is unexpected.
+    let mut blind = parts.outcome.beside[0].outcome.steps.clone();
+    blind.iter_mut().for_each(|step| step.expected_force.fill(0.0));
+    let two = vec![("blind", &blind[..]), ("expecting", &parts.outcome.beside[0].outcome.steps[..])];
+    let forces = arm_forces(&parts.run().beside(two)).expect("one of them expects forces");
+    assert!(marks(&forces.panels[0], "blind").is_empty() && marks(&forces.panels[0], "expecting").len() == 1);
+    assert!(arm_forces(&parts.run().beside(vec![("blind", &blind[..])])).is_none());
 }
