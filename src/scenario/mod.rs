@@ -13,6 +13,7 @@ mod build_planar;
 mod build_scene;
 mod check_coupling;
 mod check_doors;
+mod check_grasp;
 mod check_learning;
 mod check_names;
 mod check_overrides;
