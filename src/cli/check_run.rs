@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::changed_scene::untold;
 use super::check_motion::{judged, movement, whole_file};
+use super::progress::Clock;
 use super::recorded_run::{RecordedManifest, SCENARIO, as_recorded, is_changed};
 use super::terminal::Terminal;
 use crate::check::{Criterion, not_judged};
@@ -17,7 +18,7 @@ const KIND: &str = "run";
 const STEP_LOG: &str = "steps.parquet";
 
 /// Judges the run in `folder` again.
-pub(super) fn judged_again(folder: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
+pub(super) fn judged_again(folder: &Path, options: &LoadOptions, clock: &Clock, terminal: &Terminal) -> Checked {
     let path = folder.join(SCENARIO);
     let refused = |fault| Checked::refused(folder.display().to_string(), KIND, vec![fault], 0.0);
     let manifest = match RecordedManifest::read(folder) {
@@ -28,18 +29,18 @@ pub(super) fn judged_again(folder: &Path, options: &LoadOptions, terminal: &Term
         return refused(whole_file(&path, "edited", message));
     }
     let options = manifest.may_use(options);
-    judged(folder, KIND, &path, &options, terminal, |scenario| {
+    judged(folder, KIND, &path, &options, clock, terminal, |scenario| {
         let recorded = as_recorded(&path, &options);
         if let Some(fault) = recorded.as_ref().and_then(|recorded| untold(&path, recorded, scenario, &options)) {
             return Err(vec![fault]);
         }
         let record = RecordedReport::read(folder).map_err(|fault| vec![fault])?;
-        Ok(again(scenario, &record, folder)?.with_record(&record, is_changed(recorded.as_ref(), scenario)))
+        Ok(again(scenario, &record, folder, clock)?.with_record(&record, is_changed(recorded.as_ref(), scenario)))
     })
 }
 
 /// What its log tells. Of a run that was cut short the log holds only the beginning, if there is one.
-fn again(scenario: &Scenario, record: &RecordedReport, folder: &Path) -> Result<RunReport, Vec<InputFault>> {
+fn again(scenario: &Scenario, record: &RecordedReport, folder: &Path, clock: &Clock) -> Result<RunReport, Vec<InputFault>> {
     let log = folder.join(STEP_LOG);
     let unjudged = |reason| not_judged(&scenario.criteria, reason);
     let nothing = |criteria: &[Criterion]| RunReport::unjudged(scenario.work.name(), scenario.work.seed(), criteria);
@@ -47,9 +48,9 @@ fn again(scenario: &Scenario, record: &RecordedReport, folder: &Path) -> Result<
         return Ok(nothing(&unjudged("paths in a plane are not judged again")));
     };
     if record.is_whole() && (record.outcome != Outcome::OutputFailed || log.is_file()) {
-        return movement(experiment, scenario, &scenario.criteria, &log);
+        return movement(experiment, scenario, &scenario.criteria, &log, clock);
     }
     let criteria = unjudged(if record.is_whole() { "the run could not write its log" } else { "the run did not come to its end" });
-    let begun = log.is_file().then(|| movement(experiment, scenario, &[], &log).ok()).flatten();
+    let begun = log.is_file().then(|| movement(experiment, scenario, &[], &log, clock).ok()).flatten();
     Ok(begun.map_or_else(|| nothing(&criteria), |report| report.with_criteria(&criteria)))
 }
