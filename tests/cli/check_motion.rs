@@ -279,7 +279,7 @@ fn links_and_parts_that_do_not_exist_are_refused_by_name() {
     for told in [
         "criterion.idle_hand.links: the robot has no link `right_hnd`, and the scene no object of that name; of like names there are right_hand",
         "allowed_contact.tearing.a: the robot has no link `left_hnd`",
-        "allowed_contact.tearing.b: the robot has no link `shelv`, and the scene no object of that name; of like names there are shelf",
+        "allowed_contact.tearing.b: the robot has no link `shelv`, and the scene no object of that name; of like names there are screen, shelf",
     ] {
         assert!(said.stderr.contains(told), "{told}: {}", said.stderr);
     }
