@@ -43,6 +43,7 @@ pub(super) fn judged(
     };
     match report(&scenario) {
         Ok(mut report) => {
+            report.warnings.iter().for_each(|warning| terminal.note(&format!("{name}: warning: {warning}\n")));
             report.locate(|key| scenario.places.get(key).cloned());
             if options.deny_warnings {
                 report.deny_warnings();

@@ -131,6 +131,8 @@ fn columns_that_say_nothing_are_warned_of() {
     let check = checked(&unused, &[], 0);
     assert!(warnings(&check).contains("[tyo_x_m, left_w9_rad]"), "{check:#}");
     checked(&unused, &["--deny-warnings"], 10);
+    let said = unused.call(&["check", "a.csv", "--scene", "a.toml"]);
+    assert!(said.stderr.contains("a.csv: warning: columns that nothing is taken from"), "{}", said.stderr);
     let pose = |x_m: f64| {
         let columns = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"].map(|axis| format!("table_{axis}"));
         let values = [x_m, 0.12, 0.0, 0.0, 0.0, 0.0, 1.0];
