@@ -137,8 +137,12 @@ impl TableFile {
     /// # Errors
     /// When the file is not there, or is no whole table of a sweep.
     pub fn open(path: &Path) -> Result<Self, BatchError> {
-        let file = File::open(path).map_err(BatchError::reading(path))?;
         let odd = |what: String| BatchError::NotATable { path: path.to_path_buf(), what };
+        // Opening a pipe could wait for ever.
+        if !std::fs::metadata(path).map_err(BatchError::reading(path))?.is_file() {
+            return Err(odd("no regular file".to_owned()));
+        }
+        let file = File::open(path).map_err(BatchError::reading(path))?;
         // The library is not free of panics on damaged files; nothing that it leaves behind is used afterwards.
         let reader = match catch_unwind(AssertUnwindSafe(|| SerializedFileReader::new(file))) {
             Ok(Ok(reader)) => reader,

@@ -3,36 +3,33 @@
 use super::judge::{Answer, belongs, clearance_of, no_contact};
 use super::judge_objects::no_collision;
 use super::{Criterion, CriterionKind, CriterionSpec, Expectation};
-use crate::simulation::{Experiment, MotionOutcome};
+use crate::simulation::{Experiment, MotionOutcome, Reach};
 use crate::world::ContactEpisode;
 
-/// Furthest that the tool may stay away from a pose that it is asked for (m): what the controller holds.
-const REACH_M: f64 = 1e-3;
-/// Furthest that it may be turned away from it (rad): so much moves a fingertip, 20 cm from the wrist, by a millimetre.
-const REACH_RAD: f64 = 5e-3;
+/// Why nothing is said about contacts and clearances of a movement that leaves the limits by far.
+const FAR: &str = "the joints go far beyond their limits, where the arm is not looked at";
 
 /// Whether the arm can go that way (joint limits, speeds, places and orientations), whether it touches anything that the scene does not allow, and all of
 /// `specs` in their order. Geometry answers those about contacts and clearances; of the others it says why it does not judge them.
 #[must_use]
 pub fn judge_motion(outcome: &MotionOutcome, experiment: &Experiment, specs: &[CriterionSpec]) -> Vec<Criterion> {
-    let own = |name: &str, answer: Answer, upper: bool| {
-        let spec = CriterionSpec { name: name.to_owned(), kind: CriterionKind::NoCollision, expect: Expectation::Pass };
-        answer.criterion(&spec, upper)
-    };
+    let asked = |name: &str| CriterionSpec { name: name.to_owned(), kind: CriterionKind::NoCollision, expect: Expectation::Pass };
+    let own = |name: &str, answer: Answer, upper: bool| answer.criterion(&asked(name), upper);
     let held: Vec<ContactEpisode> = outcome.collisions.iter().filter(|contact| !is_shown(contact, specs)).cloned().collect();
-    let mut criteria = vec![own("contacts_allowed", no_collision(&held), true)];
-    let failed = |fails: bool, time_s: f64| fails.then_some(time_s);
+    let mut criteria = vec![match outcome.far {
+        Some(_) => unanswered(&asked("contacts_allowed"), FAR),
+        None => own("contacts_allowed", no_collision(&held), true),
+    }];
     let (limit, speed) = (&outcome.limit, &outcome.speed);
-    let limit = Answer::at_least(limit.value, 0.0, "rad").first_failed(failed(limit.value < 0.0, limit.time_s));
-    let speed = Answer::at_most(speed.value, 1.0, "1").first_failed(failed(speed.value > 1.0, speed.time_s));
+    let limit = Answer::at_least(limit.value, 0.0, "rad").first_failed(limit.first_failed_s);
+    let speed = Answer::at_most(speed.value, 1.0, "1").first_failed(speed.first_failed_s);
     criteria.push(own("joint_limits", limit, false));
     criteria.push(own("joint_speeds", speed, true));
     if let Some(reach) = outcome.reach {
-        let answer = Answer::at_most(reach.position_error_m, REACH_M, "m");
-        criteria.push(own("poses_reached", answer.first_failed(failed(reach.position_error_m > REACH_M, reach.position_time_s)), true));
-        let answer = Answer::at_most(reach.orientation_error_rad, REACH_RAD, "rad");
-        let turned = failed(reach.orientation_error_rad > REACH_RAD, reach.orientation_time_s);
-        criteria.push(own("orientations_reached", answer.first_failed(turned), true));
+        let answer = Answer::at_most(reach.position_error_m, Reach::POSITION_M, "m");
+        criteria.push(own("poses_reached", answer.first_failed(reach.position_failed_s), true));
+        let answer = Answer::at_most(reach.orientation_error_rad, Reach::ORIENTATION_RAD, "rad");
+        criteria.push(own("orientations_reached", answer.first_failed(reach.orientation_failed_s), true));
     }
     criteria.extend(specs.iter().map(|spec| answered(outcome, experiment, spec)));
     criteria
@@ -60,6 +57,9 @@ fn unanswered(spec: &CriterionSpec, reason: &'static str) -> Criterion {
 
 fn answered(outcome: &MotionOutcome, experiment: &Experiment, spec: &CriterionSpec) -> Criterion {
     match &spec.kind {
+        CriterionKind::NoContact { .. } | CriterionKind::NoCollision | CriterionKind::Clearance { .. } if outcome.far.is_some() => {
+            unanswered(spec, FAR)
+        }
         CriterionKind::NoContact { objects } => no_contact(&outcome.collisions, experiment, objects).criterion(spec, true),
         CriterionKind::NoCollision => no_collision(&outcome.collisions).criterion(spec, true),
         CriterionKind::Clearance { objects, links, min_m } => {

@@ -33,8 +33,8 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     let checks = targets.par_iter().map(|target| {
         let checked = match target {
             Target::Scenario(path) => simulated(path, &options, global, terminal),
-            Target::Run(run) => judged_again(run, &options, terminal),
-            Target::Trajectory(path, scene) => judged_trajectory(path, scene, &options, terminal),
+            Target::Run(run) => judged_again(run, &options, &Clock::with_limit(global.timeout), terminal),
+            Target::Trajectory(path, scene) => judged_trajectory(path, scene, &options, &Clock::with_limit(global.timeout), terminal),
         };
         terminal.note(&format!("{}: {} ({:.1} s)\n", checked.path, checked.outcome.name().replace('_', " "), checked.wall_s));
         checked

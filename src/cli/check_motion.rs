@@ -8,14 +8,15 @@ use super::progress::Clock;
 use super::terminal::Terminal;
 use crate::check::{CriterionSpec, allow, judge_motion};
 use crate::demonstration::{DemonstrationError, read_trajectory};
+use crate::recording::step_columns;
 use crate::report::{Checked, InputFault, Outcome, RunReport};
 use crate::scenario::{LoadOptions, Scenario, Work};
-use crate::simulation::{ArmMotion, Experiment, MotionOutcome, Progress, Setup, SimulationError, check_motion};
+use crate::simulation::{ArmMotion, Experiment, MotionOutcome, Progress, Setup, SimulationError, check_columns, check_motion};
 
 /// Judges the movement in the file `samples` in the scene of `scene`.
-pub(super) fn judged_trajectory(samples: &Path, scene: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
-    judged(samples, "trajectory", scene, options, terminal, |scenario| match &scenario.work {
-        Work::Arm(experiment) => movement(experiment, scenario, &scenario.criteria, samples),
+pub(super) fn judged_trajectory(samples: &Path, scene: &Path, options: &LoadOptions, clock: &Clock, terminal: &Terminal) -> Checked {
+    judged(samples, "trajectory", scene, options, clock, terminal, |scenario| match &scenario.work {
+        Work::Arm(experiment) => movement(experiment, scenario, &scenario.criteria, samples, clock),
         Work::Planar(_) => {
             Err(vec![whole_file(scene, "planar", "it has no arm: a movement can only be judged in the scene of an arm".to_owned())])
         }
@@ -28,10 +29,10 @@ pub(super) fn judged(
     kind: &'static str,
     scene: &Path,
     options: &LoadOptions,
+    clock: &Clock,
     terminal: &Terminal,
     report: impl FnOnce(&Scenario) -> Result<RunReport, Vec<InputFault>>,
 ) -> Checked {
-    let clock = Clock::start();
     let name = path.display().to_string();
     let scenario = match Scenario::load(scene, options) {
         Ok(scenario) => scenario,
@@ -58,8 +59,9 @@ pub(super) fn movement(
     scenario: &Scenario,
     criteria: &[CriterionSpec],
     samples: &Path,
+    clock: &Clock,
 ) -> Result<RunReport, Vec<InputFault>> {
-    match moved(experiment, samples) {
+    match moved(experiment, samples, clock) {
         Ok(mut outcome) => {
             allow(&mut outcome.collisions, &scenario.allowed_contacts);
             Ok(RunReport::of_motion(experiment, &outcome, &judge_motion(&outcome, experiment, criteria)))
@@ -70,10 +72,14 @@ pub(super) fn movement(
     }
 }
 
-fn moved(experiment: &Experiment, samples: &Path) -> Result<MotionOutcome, SimulationError> {
+fn moved(experiment: &Experiment, samples: &Path, clock: &Clock) -> Result<MotionOutcome, SimulationError> {
     let setup = Setup::new(experiment)?;
-    let motion = ArmMotion::new(&setup, &read_trajectory(samples)?)?;
-    check_motion(&setup, &motion)
+    let trajectory = read_trajectory(samples)?;
+    let log: Vec<String> = step_columns(setup.arm_joints().len(), &[]).into_iter().map(|column| column.name).collect();
+    let mut odd = check_columns(&setup, &trajectory, &log)?;
+    let mut outcome = check_motion(&setup, &ArmMotion::new(&setup, &trajectory, clock)?, clock)?;
+    outcome.warnings.append(&mut odd);
+    Ok(outcome)
 }
 
 /// Every fault of the samples with its line.

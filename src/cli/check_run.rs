@@ -5,6 +5,7 @@ use std::path::Path;
 use super::changed_scene::Ran;
 use super::check_motion::{judged, movement, whole_file};
 use super::files::STEP_LOG;
+use super::progress::Clock;
 use super::recorded_run::{RecordedManifest, SCENARIO, as_recorded};
 use super::terminal::Terminal;
 use crate::check::{Criterion, not_judged};
@@ -15,7 +16,7 @@ use crate::scenario::{LoadOptions, Scenario, Work};
 const KIND: &str = "run";
 
 /// Judges the run in `folder` again.
-pub(super) fn judged_again(folder: &Path, options: &LoadOptions, terminal: &Terminal) -> Checked {
+pub(super) fn judged_again(folder: &Path, options: &LoadOptions, clock: &Clock, terminal: &Terminal) -> Checked {
     let path = folder.join(SCENARIO);
     let refused = |fault| Checked::refused(folder.display().to_string(), KIND, vec![fault], 0.0);
     let manifest = match RecordedManifest::read(folder) {
@@ -29,7 +30,7 @@ pub(super) fn judged_again(folder: &Path, options: &LoadOptions, terminal: &Term
         return refused(whole_file(&file, "edited", message));
     }
     let options = manifest.may_use(options);
-    judged(folder, KIND, &path, &options, terminal, |scenario| {
+    judged(folder, KIND, &path, &options, clock, terminal, |scenario| {
         let recorded = as_recorded(&path, &options);
         let ran = Ran::new(&path, recorded.as_ref());
         if let Some(fault) = ran.untold(scenario, &options) {
@@ -38,12 +39,12 @@ pub(super) fn judged_again(folder: &Path, options: &LoadOptions, terminal: &Term
         let record = RecordedReport::read(folder).map_err(|fault| vec![fault])?;
         let criteria = recorded.as_ref().map_or(&[][..], |recorded| &recorded.criteria);
         let change = Change { ran: criteria, asked: &scenario.criteria, scene: ran.is_in_another_scene(scenario) };
-        Ok(again(scenario, &record, folder)?.with_record(&record, change))
+        Ok(again(scenario, &record, folder, clock)?.with_record(&record, change))
     })
 }
 
 /// What its log tells. Of a run that was cut short the log holds only the beginning, if there is one.
-fn again(scenario: &Scenario, record: &RecordedReport, folder: &Path) -> Result<RunReport, Vec<InputFault>> {
+fn again(scenario: &Scenario, record: &RecordedReport, folder: &Path, clock: &Clock) -> Result<RunReport, Vec<InputFault>> {
     let log = folder.join(STEP_LOG);
     let unjudged = |reason| not_judged(&scenario.criteria, reason);
     let nothing = |criteria: &[Criterion]| RunReport::unjudged(scenario.work.name(), scenario.work.seed(), criteria);
@@ -51,9 +52,9 @@ fn again(scenario: &Scenario, record: &RecordedReport, folder: &Path) -> Result<
         return Ok(nothing(&unjudged("paths in a plane are not judged again")));
     };
     if record.is_whole() && (record.outcome != Outcome::OutputFailed || log.is_file()) {
-        return movement(experiment, scenario, &scenario.criteria, &log);
+        return movement(experiment, scenario, &scenario.criteria, &log, clock);
     }
     let criteria = unjudged(if record.is_whole() { "the run could not write its log" } else { "the run did not come to its end" });
-    let begun = log.is_file().then(|| movement(experiment, scenario, &[], &log).ok()).flatten();
+    let begun = log.is_file().then(|| movement(experiment, scenario, &[], &log, clock).ok()).flatten();
     Ok(begun.map_or_else(|| nothing(&criteria), |report| report.with_criteria(&criteria)))
 }

@@ -79,6 +79,10 @@ fn content(path: &Path) -> Result<Content, Failure> {
 
 /// The first 64 KiB, enough to know a kind.
 fn beginning(path: &Path) -> std::io::Result<String> {
+    // Opening a pipe could wait for ever.
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(std::io::Error::other("no regular file: pipes and devices are not read"));
+    }
     let mut bytes = Vec::new();
     File::open(path)?.take(64 << 10).read_to_end(&mut bytes)?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())

@@ -5,14 +5,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
-use ::parquet::basic::{Compression, Repetition, Type as Physical};
+use ::parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use ::parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use ::parquet::data_type::{DataType, DoubleType};
 use ::parquet::errors::ParquetError;
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::file::writer::SerializedFileWriter;
-use ::parquet::schema::types::Type;
+use ::parquet::schema::types::{ColumnDescriptor, Type};
 
 use super::table::{Column, MOST_CELLS, Table};
 use super::{DemonstrationError, Fault, Trajectory};
@@ -57,11 +57,12 @@ fn columns(path: &Path) -> Result<Vec<Column>, ParquetError> {
                 return Err(ParquetError::General(format!("column {} holds lists; one number per row is read", column.name)));
             }
             let most = schema.column(i).max_def_level();
+            let scale = decimals(&schema.column(i), &column.name)?;
             match group.get_column_reader(i)? {
                 ColumnReader::DoubleColumnReader(r) => append(r, most, rows, column, |x| Ok(*x))?,
                 ColumnReader::FloatColumnReader(r) => append(r, most, rows, column, |x| Ok(f64::from(*x)))?,
-                ColumnReader::Int32ColumnReader(r) => append(r, most, rows, column, |x| Ok(f64::from(*x)))?,
-                ColumnReader::Int64ColumnReader(r) => append(r, most, rows, column, |x| Ok(*x as f64))?,
+                ColumnReader::Int32ColumnReader(r) => append(r, most, rows, column, |x| Ok(f64::from(*x) / scale))?,
+                ColumnReader::Int64ColumnReader(r) => append(r, most, rows, column, |x| Ok(*x as f64 / scale))?,
                 ColumnReader::BoolColumnReader(r) => append(r, most, rows, column, |x| Ok(f64::from(u8::from(*x))))?,
                 ColumnReader::ByteArrayColumnReader(r) => {
                     append(r, most, rows, column, |x| Err(String::from_utf8_lossy(x.data()).into_owned()))?;
@@ -71,6 +72,19 @@ fn columns(path: &Path) -> Result<Vec<Column>, ParquetError> {
         }
     }
     Ok(columns)
+}
+
+/// By what the whole numbers of a column are divided: ten for every decimal place of a decimal, one otherwise.
+fn decimals(column: &ColumnDescriptor, name: &str) -> Result<f64, ParquetError> {
+    let scale = match column.logical_type_ref() {
+        Some(LogicalType::Decimal { scale, .. }) => *scale,
+        _ if column.converted_type() == ConvertedType::DECIMAL => column.type_scale(),
+        _ => return Ok(1.0),
+    };
+    if matches!(column.physical_type(), Physical::INT32 | Physical::INT64) {
+        return Ok(10f64.powi(scale.max(0)));
+    }
+    Err(ParquetError::General(format!("column {name} holds decimals of more than 18 digits, or as bytes; doubles are read")))
 }
 
 /// All records of one column of one group; nulls are odd cells.
@@ -124,4 +138,35 @@ pub(super) fn write(file: File, trajectory: &Trajectory) -> Result<(), ParquetEr
     group.close()?;
     writer.close()?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use ::parquet::data_type::Int32Type;
+
+    use super::*;
+
+    /// Contract: a decimal of two places is a hundredth of the whole number that is stored for it.
+    #[test]
+    fn decimals_are_read_with_their_places() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.parquet");
+        let whole = Type::primitive_type_builder("whole", Physical::INT32).with_repetition(Repetition::REQUIRED);
+        let hundredths = Type::primitive_type_builder("hundredths", Physical::INT32).with_repetition(Repetition::REQUIRED);
+        let hundredths = hundredths.with_converted_type(ConvertedType::DECIMAL).with_precision(4).with_scale(2);
+        let fields = [whole, hundredths].map(|field| Arc::new(field.build().expect("a field"))).to_vec();
+        let schema = Arc::new(Type::group_type_builder("a").with_fields(fields).build().expect("a schema"));
+        let file = File::create(&path).expect("created");
+        let mut writer = SerializedFileWriter::new(file, schema, Arc::default()).expect("begun");
+        let mut group = writer.next_row_group().expect("a group");
+        while let Some(mut column) = group.next_column().expect("a column") {
+            column.typed::<Int32Type>().write_batch(&[7, -150], None, None).expect("written");
+            column.close().expect("closed");
+        }
+        group.close().expect("closed");
+        writer.close().expect("closed");
+        let read = columns(&path).expect("read");
+        assert_eq!(read[0].values, [7.0, -150.0]);
+        assert_eq!(read[1].values, [0.07, -1.5]);
+    }
 }

@@ -289,7 +289,7 @@ impl RunReport {
             clearance: sections::clearances(&outcome.clearances, &experiment.objects),
             parameters: parameters.map(|(name, value)| ParameterReport { name: name.clone(), value: *value }).collect(),
             steps: outcome.samples as u64,
-            warnings: outcome.robot_warnings.iter().map(ToString::to_string).collect(),
+            warnings: outcome.robot_warnings.iter().map(ToString::to_string).chain(outcome.warnings.iter().cloned()).collect(),
             ..Self::empty(&experiment.name, experiment.seed, if as_expected { Outcome::Passed } else { Outcome::CriteriaNotMet })
         }
     }

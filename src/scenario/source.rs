@@ -106,6 +106,12 @@ pub(super) fn read(path: &Path) -> Result<String, Fault> {
         };
         Fault::whole_file(Code::Unreadable, path, format!("cannot read `{name}`: {error}")).help(help)
     };
+    // Opening a pipe could wait for ever; of a folder, reading says best what is wrong.
+    let about = std::fs::metadata(path).map_err(unreadable)?;
+    if !about.is_file() && !about.is_dir() {
+        let message = format!("cannot read `{name}`: it is no regular file");
+        return Err(Fault::whole_file(Code::Unreadable, path, message).help("name a file; pipes and devices are not read"));
+    }
     let file = File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;

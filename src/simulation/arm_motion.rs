@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
-use super::{Setup, SimulationError};
+use super::{Progress, Setup, SimulationError};
 use crate::demonstration::{QUATERNION_COLUMNS, Trajectory};
 use crate::world::{ObjectKind, support_height_m};
 
@@ -26,12 +26,31 @@ pub struct ArmMotion {
 pub struct Reach {
     /// Largest distance of the tool from its pose (m).
     pub position_error_m: f64,
-    /// The time of that (s).
-    pub position_time_s: f64,
+    /// When it first is further away than [`Self::POSITION_M`] (s).
+    pub position_failed_s: Option<f64>,
     /// Largest angle between them (rad).
     pub orientation_error_rad: f64,
-    /// The time of that (s).
-    pub orientation_time_s: f64,
+    /// When it first is turned away by more than [`Self::ORIENTATION_RAD`] (s).
+    pub orientation_failed_s: Option<f64>,
+}
+
+impl Reach {
+    /// Furthest that the tool may stay away from a pose that it is asked for (m): what the controller holds.
+    pub const POSITION_M: f64 = 1e-3;
+    /// Furthest that it may be turned away from it (rad): so much moves a fingertip, 20 cm from the wrist, by a millimetre.
+    pub const ORIENTATION_RAD: f64 = 5e-3;
+
+    /// Takes one more pose into account.
+    fn note(&mut self, position_m: f64, orientation_rad: f64, time_s: f64) {
+        if position_m > Self::POSITION_M {
+            self.position_failed_s.get_or_insert(time_s);
+        }
+        if orientation_rad > Self::ORIENTATION_RAD {
+            self.orientation_failed_s.get_or_insert(time_s);
+        }
+        self.position_error_m = self.position_error_m.max(position_m);
+        self.orientation_error_rad = self.orientation_error_rad.max(orientation_rad);
+    }
 }
 
 impl ArmMotion {
@@ -40,8 +59,8 @@ impl ArmMotion {
     /// where the objects that can move are: all of them, or none, and they stay where they start.
     ///
     /// # Errors
-    /// When the columns hold neither joints nor poses, or tell of some of the objects only.
-    pub fn new(setup: &Setup, trajectory: &Trajectory) -> Result<Self, SimulationError> {
+    /// When the columns hold neither joints nor poses, or tell of some of the objects only, or `progress` does not let it go on.
+    pub fn new(setup: &Setup, trajectory: &Trajectory, progress: &dyn Progress) -> Result<Self, SimulationError> {
         let mut arm = setup.arm();
         let named: Vec<String> = (0..arm.joints()).map(|joint| format!("{}_rad", arm.joint_name(joint))).collect();
         let counted: Vec<String> = (1..=arm.joints()).map(|number| format!("q{number}_rad")).collect();
@@ -70,16 +89,13 @@ impl ArmMotion {
         };
         // Each pose is solved from the posture before, so that the arm does not jump.
         let mut q = vec![0.0; arm.joints()];
-        let start_s = motion.times_s[0];
-        let mut reach = Reach { position_error_m: 0.0, position_time_s: start_s, orientation_error_rad: 0.0, orientation_time_s: start_s };
+        let mut reach = Reach { position_error_m: 0.0, position_failed_s: None, orientation_error_rad: 0.0, orientation_failed_s: None };
         for (sample, (pose, &time_s)) in poses.iter().zip(&motion.times_s).enumerate() {
+            if !progress.may_go_on() {
+                return Err(SimulationError::StoppedBefore { next: format!("the joint angles of the pose at {time_s:.3} s were found") });
+            }
             let found = if sample == 0 { arm.reach(pose, &mut q) } else { arm.reach_from(pose, &mut q) };
-            if found.position_error_m > reach.position_error_m {
-                reach = Reach { position_error_m: found.position_error_m, position_time_s: time_s, ..reach };
-            }
-            if found.orientation_error_rad > reach.orientation_error_rad {
-                reach = Reach { orientation_error_rad: found.orientation_error_rad, orientation_time_s: time_s, ..reach };
-            }
+            reach.note(found.position_error_m, found.orientation_error_rad, time_s);
             motion.arm_rad.push(q.clone());
         }
         Ok(Self { reach: Some(reach), ..motion })
@@ -87,7 +103,7 @@ impl ArmMotion {
 }
 
 /// The poses in the columns `PREFIX_x_m` … `PREFIX_qw`, or without a prefix.
-fn poses(trajectory: &Trajectory, prefix: &str) -> Option<Vec<Isometry3<f64>>> {
+pub(super) fn poses(trajectory: &Trajectory, prefix: &str) -> Option<Vec<Isometry3<f64>>> {
     let names = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"].map(|name| format!("{prefix}{name}"));
     let values = trajectory.select(&names).ok()?;
     let pose = |row: nalgebra::RowDVector<f64>| {

@@ -155,7 +155,8 @@ impl Setup {
     }
 
     /// The joints of the working arm, from the shoulder.
-    pub(super) fn arm_joints(&self) -> Vec<Joint> {
+    #[must_use]
+    pub fn arm_joints(&self) -> Vec<Joint> {
         self.arm.chain_joints().cloned().collect()
     }
 

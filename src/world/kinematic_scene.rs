@@ -96,6 +96,14 @@ impl KinematicScene {
     /// # Panics
     /// When the placement has another number of joints or objects than the scene.
     pub fn place(&mut self, placement: &Placement) {
+        self.place_while(placement, &|| true);
+    }
+
+    /// As [`Self::place`], as long as `may_go_on`, which is asked before every distance; once it may not, contacts and clearances are incomplete.
+    ///
+    /// # Panics
+    /// As [`Self::place`].
+    pub fn place_while(&mut self, placement: &Placement, may_go_on: &dyn Fn() -> bool) {
         std::mem::swap(&mut self.before, &mut self.after);
         self.arrive(placement);
         if !std::mem::replace(&mut self.placed, true) {
@@ -114,7 +122,8 @@ impl KinematicScene {
             }
             mechanism.pose(i, before, after, fraction, poses)
         };
-        let motion = Motion { start_s: before.time_s, end_s: after.time_s, travel_m, pose_at: &pose_at, timed_within: true };
+        let (start_s, end_s) = (before.time_s, after.time_s);
+        let motion = Motion { start_s, end_s, travel_m, pose_at: &pose_at, timed_within: true, may_go_on };
         book.follow(&motion, &self.held);
         self.held = held(book, &pose_at, &self.movable);
         for touch in &self.book.touches {

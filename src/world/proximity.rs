@@ -80,6 +80,8 @@ pub(super) struct Motion<'a> {
     /// Whether touches that begin or end within the motion are timed within it. Otherwise a touch counts from the step at whose end it is, and
     /// only parts that pass through each other between two steps are looked for.
     pub timed_within: bool,
+    /// Whether it may be looked at any longer; once not, nothing that is found counts.
+    pub may_go_on: &'a dyn Fn() -> bool,
 }
 
 struct Pair {
@@ -165,6 +167,9 @@ impl ProximityBook {
                 continue;
             }
             let gap_at = |fraction: f64| {
+                if !(motion.may_go_on)() {
+                    return None;
+                }
                 let (a, b) = (pair.a, pair.b);
                 let (at_a, at_b) = ((motion.pose_at)(a, fraction), (motion.pose_at)(b, fraction));
                 Gap::between(&at_a, &*solids[a].shape, &at_b, &*solids[b].shape)

@@ -52,7 +52,7 @@ impl EngineWatch {
             1.0 => after[i],
             _ => balls[i].pose(&before[i], &after[i], fraction),
         };
-        book.follow(&Motion { start_s, end_s, travel_m, pose_at: &pose_at, timed_within: false }, held);
+        book.follow(&Motion { start_s, end_s, travel_m, pose_at: &pose_at, timed_within: false, may_go_on: &|| true }, held);
     }
 }
 

@@ -160,13 +160,13 @@ fn an_object_that_a_movement_carries_is_judged_too() {
     }
 }
 
-/// Contract: a pose counts as reached when the tool is there and turned as asked; each says when it is worst.
+/// Contract: a pose counts as reached when the tool is there and turned as asked; each says when it first is not.
 #[test]
 fn a_pose_that_is_reached_turned_away_is_not_reached() {
     let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
     let scenario = Scenario::load(&folder.path().join("a.toml"), &LoadOptions::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let Work::Arm(experiment) = scenario.work else { panic!("no arm") };
-    let fine = JointExtreme { joint: "left_s0".to_owned(), value: 0.5, time_s: 0.0 };
+    let fine = JointExtreme { joint: "left_s0".to_owned(), value: 0.5, time_s: 0.0, first_failed_s: None };
     let judged = |reach: Reach| {
         let outcome = MotionOutcome {
             samples: 2,
@@ -176,7 +176,9 @@ fn a_pose_that_is_reached_turned_away_is_not_reached() {
             limit: fine.clone(),
             speed: fine.clone(),
             reach: Some(reach),
+            far: None,
             robot_warnings: Vec::new(),
+            warnings: Vec::new(),
         };
         let criteria = judge_motion(&outcome, &experiment, &[]);
         ["poses_reached", "orientations_reached"].map(|name| {
@@ -184,10 +186,10 @@ fn a_pose_that_is_reached_turned_away_is_not_reached() {
             (found.passed, found.first_failed_time_s)
         })
     };
-    let reach = Reach { position_error_m: 1e-4, position_time_s: 0.2, orientation_error_rad: 1e-3, orientation_time_s: 0.7 };
+    let reach = Reach { position_error_m: 1e-4, position_failed_s: None, orientation_error_rad: 1e-3, orientation_failed_s: None };
     assert_eq!(judged(reach), [(true, None), (true, None)]);
-    assert_eq!(judged(Reach { orientation_error_rad: 0.1, ..reach }), [(true, None), (false, Some(0.7))]);
-    assert_eq!(judged(Reach { position_error_m: 0.1, ..reach }), [(false, Some(0.2)), (true, None)]);
+    assert_eq!(judged(Reach { orientation_error_rad: 0.1, orientation_failed_s: Some(0.7), ..reach }), [(true, None), (false, Some(0.7))]);
+    assert_eq!(judged(Reach { position_error_m: 0.1, position_failed_s: Some(0.2), ..reach }), [(false, Some(0.2)), (true, None)]);
 }
 
 /// A plate below the arm that holds still, its top at 0.02 m and as much higher as it is raised.

@@ -80,8 +80,8 @@ fn a_stored_run_is_judged_with_its_door_open() {
     let log = folder.path().join("steps.parquet");
     write_step_log(&log, &outcome).expect("written");
     let setup = Setup::new(&experiment).expect("the robot loads");
-    let motion = ArmMotion::new(&setup, &read_trajectory(&log).expect("a log")).expect("a movement");
-    let again = check_motion(&setup, &motion).expect("judged");
+    let motion = ArmMotion::new(&setup, &read_trajectory(&log).expect("a log"), &Silent).expect("a movement");
+    let again = check_motion(&setup, &motion, &Silent).expect("judged");
     println!("{:#?}\n{:#?}", outcome.collisions, again.collisions);
     assert_eq!(pairs(&again.collisions), pairs(&outcome.collisions));
     for (then, now) in nearest_of_each(&outcome.clearances).into_iter().zip(nearest_of_each(&again.clearances)) {

@@ -72,6 +72,10 @@ impl Skill {
     /// As [`Skill::from_json`], or when the file cannot be read or is larger.
     pub fn read(path: &Path) -> Result<Self, LearningError> {
         let io = |source| LearningError::Io { path: path.to_owned(), source };
+        // Opening a pipe could wait for ever.
+        if !std::fs::metadata(path).map_err(io)?.is_file() {
+            return Err(LearningError::Skill("it is no regular file".to_owned()));
+        }
         let mut bytes = Vec::new();
         std::fs::File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes)).map_err(io)?;
         if bytes.len() as u64 > MOST_BYTES {
