@@ -24,6 +24,11 @@ pub(super) fn explain(code: Option<&str>, _global: &Global, terminal: &Terminal)
     let faults = Code::ALL.map(Code::describe).map(|(name, meaning)| Entry { exit_code: None, name, meaning });
     let asked = |entry: &Entry| code.is_none_or(|code| entry.name == code || entry.exit_code.is_some_and(|exit| exit.to_string() == code));
     let entries: Vec<Entry> = exits.into_iter().chain(faults).filter(asked).collect();
+    if let Some(signal) = code.and_then(signal_of).filter(|_| entries.is_empty()) {
+        let meaning = format!("128 + {signal}: signal {signal} ended the program; what was recorded until then is kept\n");
+        terminal.result(&meaning);
+        return Outcome::Passed;
+    }
     if entries.is_empty() {
         terminal.error(&format!("error: no such code: {}; cpdmp explain lists all\n", code.unwrap_or_default()));
         return Outcome::Usage;
@@ -33,6 +38,11 @@ pub(super) fn explain(code: Option<&str>, _global: &Global, terminal: &Terminal)
         Format::Human => terminal.result(&table(&entries, code.is_none())),
     }
     Outcome::Passed
+}
+
+/// The signal whose exit code this is.
+fn signal_of(code: &str) -> Option<u8> {
+    code.parse::<u8>().ok()?.checked_sub(128).filter(|signal| (1..65).contains(signal))
 }
 
 fn table(entries: &[Entry], all: bool) -> String {

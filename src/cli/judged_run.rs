@@ -104,6 +104,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         | SimulationError::Unreachable { .. }
         | SimulationError::Swing { .. }
         | SimulationError::JointCounts(_)
+        | SimulationError::UnknownParts(_)
         | SimulationError::JointLimits(_)
         | SimulationError::World(_)
         | SimulationError::Scene(_)

@@ -2,7 +2,7 @@
 
 use super::load::RecordingPlan;
 use super::tree::Node;
-use super::{build_learning, build_scene};
+use super::{build_criteria, build_learning, build_scene};
 use crate::control::{Feedback, ImpedanceSettings};
 use crate::learning::PhaseStopping;
 use crate::learning::dmp::Integrator;
@@ -45,6 +45,7 @@ pub(super) fn experiment(scenario: &Node) -> Experiment {
             snapshot_every_steps: scenario.section("recording").count("snapshot_every_steps"),
             detail: None,
         },
+        named_parts: build_criteria::named_parts(scenario),
     }
 }
 

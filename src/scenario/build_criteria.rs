@@ -3,6 +3,7 @@
 use super::tree::Node;
 use crate::check::{AllowedContact, CountsFrom, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 use crate::planar::Method;
+use crate::simulation::NamedPart;
 
 /// What a scenario asks of the run.
 pub(super) fn criteria(scenario: &Node) -> Vec<CriterionSpec> {
@@ -14,6 +15,17 @@ pub(super) fn allowed_contacts(scenario: &Node) -> Vec<AllowedContact> {
     let text = |table: &Node, key: &str| table.text(key).to_owned();
     let contact = |table: &Node| AllowedContact { name: text(table, "name"), a: text(table, "a"), b: text(table, "b") };
     scenario.tables("allowed_contact").iter().map(contact).collect()
+}
+
+/// Links and objects that criteria about distances and allowed contacts name.
+pub(super) fn named_parts(scenario: &Node) -> Vec<NamedPart> {
+    let part = |list: &str, table: &Node, key: &str, name: String| NamedPart { key: format!("{list}.{}.{key}", table.text("name")), name };
+    let distances = scenario.tables("criterion").iter().filter(|table| table.text("kind") == "clearance");
+    let links = distances
+        .flat_map(|table| table.texts("links").into_iter().map(|name| part("criterion", table, "links", name)).collect::<Vec<_>>());
+    let contacts = scenario.tables("allowed_contact").iter();
+    let ends = contacts.flat_map(|table| ["a", "b"].map(|key| part("allowed_contact", table, key, table.text(key).to_owned())));
+    links.chain(ends).collect()
 }
 
 fn method(table: &Node) -> Option<Method> {

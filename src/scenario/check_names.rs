@@ -26,6 +26,20 @@ pub(super) fn unique_names(scenario: &Node, key: &str, faults: &mut Vec<Fault>) 
     }
 }
 
+/// What a recording and its figures call the run itself.
+const NAMES_OF_THE_RUN: [&str; 5] = ["executed", "run", "planned", "taught", "start"];
+
+/// What is executed beside the run is called something else than what is of the run.
+pub(super) fn names_beside(scenario: &Node, faults: &mut Vec<Fault>) {
+    for node in list(scenario, "beside").iter().filter_map(|item| item.get("name")) {
+        if node.as_text().is_some_and(|name| NAMES_OF_THE_RUN.contains(&name.to_ascii_lowercase().as_str())) {
+            let message = "a recording calls something of the run itself so".to_owned();
+            faults
+                .push(Fault::at(Code::DuplicateName, node.origin, message).expected("a name that says what differs, such as `uncoupled`"));
+        }
+    }
+}
+
 /// Names of objects and parameters, wherever the table of keys says that one is meant.
 pub(super) fn references(scenario: &Node, faults: &mut Vec<Fault>) {
     walk(scenario, &SCENARIO, &mut |key, node| match &key.kind {

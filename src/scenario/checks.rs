@@ -2,8 +2,9 @@
 
 use super::check_coupling::coupling;
 use super::check_doors::{handles_on_doors, one_door_at_a_time, openings, square_cabinets};
+use super::check_grasp::grasps;
 use super::check_learning::ends_of_no_baseline;
-use super::check_names::{references, unique_names};
+use super::check_names::{names_beside, references, unique_names};
 use super::check_planar::planar;
 use super::check_taught::{grid, parameters_are_taught};
 use super::check_times::{pushes, waypoints};
@@ -18,6 +19,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     unique_names(scenario, "criterion", &mut faults);
     unique_names(scenario, "allowed_contact", &mut faults);
     unique_names(scenario, "beside", &mut faults);
+    names_beside(scenario, &mut faults);
     references(scenario, &mut faults);
     square_cabinets(scenario, &mut faults);
     handles_on_doors(scenario, &mut faults);
@@ -31,6 +33,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
         parameters_are_taught(scenario, teaching, &mut faults);
         waypoints(teaching, &mut faults);
         openings(scenario, teaching, &mut faults);
+        grasps(scenario, teaching, &mut faults);
         one_door_at_a_time(scenario, teaching, &mut faults);
     }
     joints(scenario, &mut faults);

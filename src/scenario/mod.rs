@@ -14,6 +14,7 @@ mod build_scene;
 mod changes;
 mod check_coupling;
 mod check_doors;
+mod check_grasp;
 mod check_learning;
 mod check_names;
 mod check_overrides;

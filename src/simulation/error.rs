@@ -49,6 +49,9 @@ pub enum SimulationError {
     /// Lists of the scenario have another length than the robot's arms, one sentence each.
     #[error("{}", .0.join("\n"))]
     JointCounts(Vec<String>),
+    /// Neither the robot nor the scene has parts of these names, one sentence each.
+    #[error("{}", .0.join("\n"))]
+    UnknownParts(Vec<String>),
     /// Postures are beyond the limits of joints, one sentence each.
     #[error("{}", .0.join("\n"))]
     JointLimits(Vec<String>),

@@ -43,6 +43,17 @@ pub struct Experiment {
     pub log_rate_hz: f64,
     /// What is kept of the states, so that a repetition can be held against the run.
     pub trace: TraceSettings,
+    /// Links of the robot and objects that criteria and allowed contacts name; all of them must be there.
+    pub named_parts: Vec<NamedPart>,
+}
+
+/// A name that stands for a link of the robot or an object.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedPart {
+    /// The key that it is the value of.
+    pub key: String,
+    /// The name.
+    pub name: String,
 }
 
 /// In which coordinates a motion is learned and executed.

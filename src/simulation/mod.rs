@@ -32,7 +32,7 @@ pub use arm_motion::{ArmMotion, Reach};
 pub use beside::{Beside, Variation, execute_beside};
 pub use changed_scene::moved_otherwise;
 pub use error::SimulationError;
-pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings, TeachingPlan, Waypoint};
+pub use experiment::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, NamedPart, RobotSettings, TeachingPlan, Waypoint};
 pub use lesson_record::{LOOKS_HZ, LessonLook, LessonRecord};
 pub use motion_check::{JointExtreme, MotionOutcome, check_motion};
 pub use motion_columns::check_columns;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::Isometry3;
 
-use super::{Experiment, RobotSettings, SimulationError};
+use super::{Experiment, NamedPart, RobotSettings, SimulationError};
 use crate::control::{ArmModel, HoldPosture, PoseTracker, WrenchObserver};
 use crate::robot::baxter::{LEFT_HAND, LEFT_HOOK, LEFT_TOOL};
 use crate::robot::{self, Finding, IkOutcome, Joint, LoadOptions, Loaded, RobotModel};
@@ -41,6 +41,23 @@ fn check_lengths(settings: &RobotSettings, joints: usize, idle_joints: Option<us
         })
         .collect();
     if wrong.is_empty() { Ok(()) } else { Err(SimulationError::JointCounts(wrong)) }
+}
+
+/// Every part that criteria and allowed contacts name is a link of the robot, an object, or one of an object's parts.
+fn check_parts(experiment: &Experiment, robot: &RobotModel) -> Result<(), SimulationError> {
+    let links = || robot.frames.iter().map(|frame| frame.name.as_str());
+    let is_object = |name: &str| experiment.objects.iter().any(|object| name.split('.').next() == Some(object.name.as_str()));
+    let unknown = experiment.named_parts.iter().filter(|part| !is_object(&part.name) && !links().any(|link| link == part.name));
+    let told: Vec<String> = unknown
+        .map(|NamedPart { key, name }| {
+            let near = links().chain(experiment.objects.iter().map(|object| object.name.as_str()));
+            let near: Vec<&str> =
+                near.filter(|known| known.len().abs_diff(name.len()) <= 1 && known.chars().next() == name.chars().next()).collect();
+            let help = if near.is_empty() { String::new() } else { format!("; of like names there are {}", near.join(", ")) };
+            format!("{key}: the robot has no link `{name}`, and the scene no object of that name{help}")
+        })
+        .collect();
+    if told.is_empty() { Ok(()) } else { Err(SimulationError::UnknownParts(told)) }
 }
 
 /// The built-in robot with the tool that the experiment names.
@@ -101,6 +118,7 @@ impl Setup {
             )?),
         };
         check_lengths(settings, arm.joints(), idle.as_ref().map(ArmModel::joints))?;
+        check_parts(experiment, &loaded.model)?;
         Ok(Self { experiment: experiment.clone(), robot: loaded.model, warnings: loaded.warnings, arm, idle })
     }
 

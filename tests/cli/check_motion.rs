@@ -267,3 +267,20 @@ fn objects_are_where_the_samples_say_or_are_refused() {
     let said = check("a.toml");
     assert!(said.code == Some(3) && said.stdout.contains("10.0 mm from the hinge"), "{}", said.stdout);
 }
+
+/// Contract: a name that nothing bears counts nothing, silently; so it is refused, wherever it stands.
+#[test]
+fn links_and_parts_that_do_not_exist_are_refused_by_name() {
+    let odd = "\n[[allowed_contact]]\nname = \"tearing\"\na = \"left_hnd\"\nb = \"shelv\"\n";
+    let text = format!("{GOOD}{SHELF}{odd}").replace("links = [\"right_hand\"]", "links = [\"right_hand\", \"right_hnd\"]");
+    let folder = Folder::with(&[("a.toml", text.as_bytes())]);
+    let said = folder.call(&["validate", "a.toml"]);
+    assert_eq!(said.code, Some(3), "{}", said.stderr);
+    for told in [
+        "criterion.idle_hand.links: the robot has no link `right_hnd`, and the scene no object of that name; of like names there are right_hand",
+        "allowed_contact.tearing.a: the robot has no link `left_hnd`",
+        "allowed_contact.tearing.b: the robot has no link `shelv`, and the scene no object of that name; of like names there are screen, shelf",
+    ] {
+        assert!(said.stderr.contains(told), "{told}: {}", said.stderr);
+    }
+}

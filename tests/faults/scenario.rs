@@ -148,6 +148,36 @@ fn what_only_looks_odd_is_a_warning() {
     assert!(said.stderr.contains("warning[untaught]") && said.stderr.contains("from 0.17 to 0.26"), "{}", said.stderr);
 }
 
+/// Contract: a scene in which the gripper would let slip what it closes around is odd; with enough solver iterations, for a ball, or for what
+/// stands fast it is not.
+#[test]
+fn a_gripper_that_closes_around_what_would_slip_is_a_warning() {
+    let can = |more: &str| {
+        format!(
+            "{GOOD}\n[[object]]\nname = \"can\"\nkind = \"cylinder\"\ncenter_m = [0.7, 0.2]\nradius_m = 0.03\nheight_m = 0.1\nmass_kg = 0.1\n{more}"
+        )
+    };
+    let closing = |text: &str| text.replacen("time_s = 4.0", "time_s = 4.0\ngripper = 0.0", 1);
+    let warned = |text: &str| {
+        let said = Folder::with(&[("a.toml", text.as_bytes())]).call(&["validate", "a.toml"]);
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+        said.stderr.contains("let a cylinder slip out of it")
+    };
+    assert!(warned(&closing(&can(""))));
+    assert!(!warned(&can("")), "the gripper stays open");
+    assert!(!warned(&closing(&can("fixed = true\n"))), "it stands fast");
+    assert!(!warned(&closing(&can("[simulation]\nsolver_iterations = 4\n"))));
+}
+
+/// Contract: what is executed beside the run is told apart from it everywhere.
+#[test]
+fn what_is_beside_the_run_is_not_called_as_the_run_is() {
+    let text = format!("{GOOD}\n[[beside]]\nname = \"Executed\"\nset = [\"coupling.enabled=false\"]\n");
+    let said = Folder::with(&[("a.toml", text.as_bytes())]).call(&["validate", "a.toml"]);
+    assert_eq!(said.code, Some(3), "{}", said.stderr);
+    assert!(said.stderr.contains("error[duplicate_name]") && said.stderr.contains("of the run itself"), "{}", said.stderr);
+}
+
 /// Contract: every handle of a cabinet is on its door, all of its row and all of its bar.
 #[test]
 fn a_handle_off_its_door_is_refused_with_what_would_fit() {

@@ -103,16 +103,16 @@ fn log_parts(recorder: &Recorder, when: Since, (entity, name): (&Entity, &str), 
     Ok(())
 }
 
-/// Calm colours for what stands there, a bright one for what is to be grasped.
+/// Calm colours for what stands there, none of which means anything else in a recording; a bright one for a ball.
 fn color(object: &Object) -> Color {
     match object.kind {
         ObjectKind::Table { .. } => Color::from_rgb(196, 178, 150),
         ObjectKind::UBlock { .. } => Color::from_rgb(128, 146, 170),
         ObjectKind::Ball { .. } => Color::from_rgb(250, 214, 40),
         ObjectKind::Basket { .. } => Color::from_rgb(140, 100, 66),
-        ObjectKind::Cylinder { .. } => Color::from_rgb(236, 146, 62),
+        ObjectKind::Cylinder { .. } => Color::from_rgb(150, 170, 188),
         ObjectKind::SpringPlate { .. } => Color::from_rgb(120, 170, 120),
-        ObjectKind::Box { .. } => Color::from_rgb(214, 108, 70),
+        ObjectKind::Box { .. } => Color::from_rgb(112, 150, 150),
         ObjectKind::Cabinet(_) => Color::from_rgb(172, 152, 122),
     }
 }
