@@ -24,6 +24,18 @@ pub enum Expectation {
     Report,
 }
 
+impl Expectation {
+    /// As scenarios and reports call it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Report => "report",
+        }
+    }
+}
+
 /// The questions that can be asked. They are answered from the simulated world, but for three that are about what the skill wants:
 /// [`Self::GoalReached`] and [`Self::ExpectedForce`] hold the world against the skill's goal and its expected force, and [`Self::ArcFollowed`] of
 /// the reference asks where the controller wants the tool.

@@ -7,6 +7,7 @@ mod judge;
 mod judge_motion;
 mod judge_objects;
 mod judge_planar;
+mod limit;
 mod place;
 mod planar_trace;
 mod replay_difference;
@@ -18,6 +19,7 @@ pub use criterion::{CountsFrom, Criterion, CriterionKind, CriterionSpec, Expecta
 pub use judge::judge;
 pub use judge_motion::{judge_motion, not_judged};
 pub use judge_planar::judge_planar;
+pub use limit::Limit;
 pub use place::Place;
 pub use planar_trace::planar_traces;
 pub use replay_difference::{DifferenceKind, ReplayDifference, exact_difference, first_difference};

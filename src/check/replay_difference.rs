@@ -30,6 +30,13 @@ pub enum DifferenceKind {
         /// What differs at that step: body and quantity. Empty when a difference has come and gone since.
         parts: Vec<(String, &'static str)>,
     },
+    /// Recorded hashes that contradict each other, so that no run can have left them.
+    Edited {
+        /// The first step with such hashes.
+        step: u64,
+        /// The body and quantity whose hash does not belong to the step's total; `None` when it is the total that does not belong to its bodies'.
+        part: Option<(String, &'static str)>,
+    },
     /// States, found from the states themselves.
     Exact {
         /// The first step that differs.
@@ -71,15 +78,30 @@ fn between(recorded: &StateTrace, repeated: &StateTrace) -> Option<DifferenceKin
     let mut equal_up_to = None;
     for (index, &step) in recorded.steps.iter().enumerate() {
         let Ok(other) = repeated.steps.binary_search(&step) else { continue };
-        if recorded.hashes[index] != repeated.hashes[other] {
-            let parts = parts(&recorded.bodies, recorded.quantities_at(index), repeated.quantities_at(other));
+        let mut parts = parts(&recorded.bodies, recorded.quantities_at(index), repeated.quantities_at(other));
+        let same_total = recorded.hashes[index] == repeated.hashes[other];
+        if !same_total && parts.is_empty() && meet_after(step, recorded, repeated) {
+            return Some(DifferenceKind::Edited { step, part: None });
+        }
+        if !same_total {
             return Some(DifferenceKind::Between { equal_up_to, step, parts });
+        }
+        if !parts.is_empty() {
+            return Some(DifferenceKind::Edited { step, part: Some(parts.swap_remove(0)) });
         }
         equal_up_to = Some(step);
     }
     let last = |trace: &StateTrace| trace.steps.last().copied().unwrap_or(0);
     let lengths = (last(recorded), last(repeated));
     (lengths.0 != lengths.1).then(|| DifferenceKind::World(format!("recorded: {} steps; repeated: {} steps", lengths.0, lengths.1)))
+}
+
+/// Whether the totals of a later step agree. Each is one over all states up to its step: had the states ever differed, they never would again.
+fn meet_after(step: u64, recorded: &StateTrace, repeated: &StateTrace) -> bool {
+    recorded.steps.iter().zip(&recorded.hashes).filter(|(later, _)| **later > step).any(|(later, hash)| {
+        let other = repeated.steps.binary_search(later);
+        other.is_ok_and(|other| repeated.hashes[other] == *hash)
+    })
 }
 
 fn parts(bodies: &[String], recorded: &[[u32; 4]], repeated: &[[u32; 4]]) -> Vec<(String, &'static str)> {
@@ -124,6 +146,15 @@ impl fmt::Display for ReplayDifference {
                 let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
                 let more = if *others == 0 { String::new() } else { format!(", and {others} other bodies differ too") };
                 write!(f, "first differs in step {step}: the {quantity} of `{body}` by {by:.3e}{unit}{more}")
+            }
+            DifferenceKind::Edited { step, part: None } => {
+                write!(f, "the file's total of step {step} does not belong to its bodies' hashes, all of which are repeated: edited?")
+            }
+            DifferenceKind::Edited { step, part: Some((body, quantity)) } => {
+                write!(
+                    f,
+                    "the file's hash of the {quantity} of `{body}` in step {step} does not belong to its total, which is repeated: edited?"
+                )
             }
             DifferenceKind::Between { equal_up_to, step, parts } => {
                 match equal_up_to {

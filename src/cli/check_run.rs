@@ -2,20 +2,18 @@
 
 use std::path::Path;
 
-use super::changed_scene::untold;
+use super::changed_scene::Ran;
 use super::check_motion::{judged, movement, whole_file};
+use super::files::STEP_LOG;
 use super::progress::Clock;
-use super::recorded_run::{RecordedManifest, SCENARIO, as_recorded, is_changed};
+use super::recorded_run::{RecordedManifest, SCENARIO, as_recorded};
 use super::terminal::Terminal;
 use crate::check::{Criterion, not_judged};
-use crate::report::{Checked, InputFault, Outcome, RecordedReport, RunReport};
+use crate::report::{Change, Checked, InputFault, Outcome, RecordedReport, RunReport};
 use crate::scenario::{LoadOptions, Scenario, Work};
 
 /// What a stored run is called in reports.
 const KIND: &str = "run";
-
-/// The log of a run, whose movement is judged.
-const STEP_LOG: &str = "steps.parquet";
 
 /// Judges the run in `folder` again.
 pub(super) fn judged_again(folder: &Path, options: &LoadOptions, clock: &Clock, terminal: &Terminal) -> Checked {
@@ -28,14 +26,20 @@ pub(super) fn judged_again(folder: &Path, options: &LoadOptions, clock: &Clock, 
     if let Some(message) = manifest.edited(folder) {
         return refused(whole_file(&path, "edited", message));
     }
+    if let Some((file, message)) = manifest.altered(folder) {
+        return refused(whole_file(&file, "edited", message));
+    }
     let options = manifest.may_use(options);
     judged(folder, KIND, &path, &options, clock, terminal, |scenario| {
         let recorded = as_recorded(&path, &options);
-        if let Some(fault) = recorded.as_ref().and_then(|recorded| untold(&path, recorded, scenario, &options)) {
+        let ran = Ran::new(&path, recorded.as_ref());
+        if let Some(fault) = ran.untold(scenario, &options) {
             return Err(vec![fault]);
         }
         let record = RecordedReport::read(folder).map_err(|fault| vec![fault])?;
-        Ok(again(scenario, &record, folder, clock)?.with_record(&record, is_changed(recorded.as_ref(), scenario)))
+        let criteria = recorded.as_ref().map_or(&[][..], |recorded| &recorded.criteria);
+        let change = Change { ran: criteria, asked: &scenario.criteria, scene: ran.is_in_another_scene(scenario) };
+        Ok(again(scenario, &record, folder, clock)?.with_record(&record, change))
     })
 }
 

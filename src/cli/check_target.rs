@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::args::Check;
+use super::files::{REPORT, STEP_LOG};
+use super::recorded_run::SCENARIO;
 use super::select::{files_like, scenarios};
 use super::terminal::Terminal;
 use crate::report::Outcome;
@@ -48,8 +50,10 @@ pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Targ
     if outcome == Outcome::Passed { Ok(targets) } else { Err(outcome) }
 }
 
+/// Whether it is the folder of a run: also one whose manifest is lost, which is refused as such. Taken for a scenario, it would be simulated.
 fn is_run(path: &Path) -> bool {
-    path.join("manifest.json").is_file()
+    let holds = |name: &str| path.join(name).is_file();
+    holds("manifest.json") || holds(SCENARIO) && (holds(REPORT) || holds(STEP_LOG))
 }
 
 fn is_samples(path: &Path) -> bool {

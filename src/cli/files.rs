@@ -10,6 +10,12 @@ use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_bytes, hash_
 use crate::scenario::{RecordingPlan, Scenario, Work};
 use crate::simulation::{Experiment, RunOutcome};
 
+/// The steps of a run, one row per logged step.
+pub(super) const STEP_LOG: &str = "steps.parquet";
+
+/// How a run ended.
+pub(super) const REPORT: &str = "report.json";
+
 /// The hashes that a repetition is held against.
 pub(super) const STATE_LOG: &str = "state_hashes.parquet";
 
@@ -29,8 +35,15 @@ pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder
         run.report.warnings.extend(lost.iter().cloned());
     }
     folder.write("scenario.toml", &scenario.resolved)?;
-    folder.write("manifest.json", &manifest(run, scenario, started).to_json())?;
-    folder.write("report.json", &run.report.to_json())?;
+    let report = run.report.to_json();
+    folder.write(REPORT, &report)?;
+    // The last one, for it vouches for the others.
+    let manifest = Manifest {
+        report_xxh3_64: Some(hash_bytes(report.as_bytes())),
+        steps_xxh3_64: hash_file(&folder.staging().join(STEP_LOG)).xxh3_64,
+        ..manifest(run, scenario, started)
+    };
+    folder.write("manifest.json", &manifest.to_json())?;
     Ok(lost)
 }
 
@@ -52,7 +65,7 @@ fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folde
     let written = skill.and_then(|text| write_file(&folder.join("skill.json"), &text).map_err(|error| error.to_string()));
     failures.extend(written.err());
     if plan.steps {
-        failures.extend(recording::write_step_log(&folder.join("steps.parquet"), left).err().map(|error| error.to_string()));
+        failures.extend(recording::write_step_log(&folder.join(STEP_LOG), left).err().map(|error| error.to_string()));
         failures.extend(beside(left, &folder.join(BESIDE)).err());
     }
     match figure_files::arm_run(experiment, left).and_then(|run| figure_files::of_arm(&run)) {

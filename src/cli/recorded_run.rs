@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::beginning::Beginning;
-use super::files::STATE_LOG;
+use super::files::{REPORT, STATE_LOG, STEP_LOG};
 use crate::recording::read_state_log;
 use crate::report::{Host, hash_file};
 use crate::scenario::{LoadOptions, Scenario};
@@ -53,6 +53,20 @@ impl RecordedManifest {
         let help = "restore the file, give other values with --set KEY=VALUE, or run it as it is now";
         let again = || format!("cpdmp run {} --out ANOTHER_FOLDER", path.display());
         is_other.then(|| format!("this is not the scenario that was run, it has been edited since: {help}: `{}`", again()))
+    }
+
+    /// The file of its folder that is not as the run wrote it, and what to do, if there is one. A run that was made before hashes were kept has
+    /// none.
+    pub fn altered(&self, folder: &Path) -> Option<(PathBuf, String)> {
+        let kept = [(REPORT, "report_xxh3_64"), (STEP_LOG, "steps_xxh3_64")];
+        let (path, is_there) = kept.into_iter().find_map(|(name, key)| {
+            let (path, written) = (folder.join(name), self.0[key].as_str()?);
+            let found = hash_file(&path).xxh3_64;
+            (found.as_deref() != Some(written)).then_some((path, found.is_some()))
+        })?;
+        let what = if is_there { "it has been edited or cut since" } else { "it is gone or cannot be read" };
+        let again = format!("cpdmp run {} --out ANOTHER_FOLDER", folder.join(SCENARIO).display());
+        Some((path, format!("this is not the file that the run wrote, {what}: restore it, or make the run again: `{again}`")))
     }
 
     /// The files that decided the run, as they are found from here, with the hash that each had.

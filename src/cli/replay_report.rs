@@ -51,6 +51,7 @@ impl ReplayReport {
         let (step, part) = match &difference.what {
             DifferenceKind::Between { step, parts, .. } => (Some(*step), parts.first().cloned()),
             DifferenceKind::Exact { step, body, quantity, .. } => (Some(*step), Some((body.clone(), *quantity))),
+            DifferenceKind::Edited { step, part } => (Some(*step), part.clone()),
             DifferenceKind::World(_) => (None, None),
         };
         self.difference = Some(difference.to_string());

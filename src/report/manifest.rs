@@ -34,6 +34,10 @@ pub struct Manifest {
     pub started_unix_s: Option<u64>,
     /// XXH3-64 of the `scenario.toml` in the folder, in hexadecimal.
     pub scenario_xxh3_64: Option<String>,
+    /// The same of its `report.json`.
+    pub report_xxh3_64: Option<String>,
+    /// The same of its `steps.parquet`; `null` when there is none.
+    pub steps_xxh3_64: Option<String>,
     /// The files that decide the run.
     pub inputs: Vec<FileHash>,
     /// Where it ran.
@@ -86,6 +90,8 @@ impl Manifest {
             directory: None,
             started_unix_s: None,
             scenario_xxh3_64: None,
+            report_xxh3_64: None,
+            steps_xxh3_64: None,
             inputs: Vec::new(),
             host: Host::this(),
         }

@@ -46,7 +46,7 @@ pub use lock::{Lock, LockError, lock};
 pub use manifest::{FileHash, Host, Manifest, hash_bytes, hash_file};
 pub use outcome::Outcome;
 pub use output_file::{Replaceable, prepare_file, replace_file, rewrite_file};
-pub use recorded_report::RecordedReport;
+pub use recorded_report::{Change, RecordedReport};
 pub use robot_section::{JointLine, RobotSection};
 pub use run_folder::{OutputError, RunFolder, write_file};
 pub use run_report::{

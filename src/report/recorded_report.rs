@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::{AnswerStatus, CriterionReport, InputFault, Outcome, RunReport};
+use crate::check::{CriterionSpec, Expectation};
 
 /// What a run said of itself.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -21,6 +22,17 @@ pub struct RecordedReport {
     /// How learning went.
     #[serde(default)]
     pub learning: Option<RecordedLearning>,
+}
+
+/// What is changed in a stored run when it is judged again.
+#[derive(Clone, Copy, Debug)]
+pub struct Change<'a> {
+    /// What the run was asked.
+    pub ran: &'a [CriterionSpec],
+    /// What is asked.
+    pub asked: &'a [CriterionSpec],
+    /// Whether something else than the questions is changed.
+    pub scene: bool,
 }
 
 /// What a run said of its learning.
@@ -63,19 +75,21 @@ impl RecordedReport {
 
 impl RunReport {
     /// The report of a stored run that was judged again, with what the run said of itself: where nothing was judged, its own answers stand,
-    /// unless `changed` says that they are those of another scenario. What it warned of is told again. A run is never judged better than it
-    /// was.
+    /// held against the limits that are asked for. Where `change` makes them those of another scenario there is no answer, which is as bad as a
+    /// wrong one where the scenario expects one. What it warned of is told again. A run is never judged better than it was.
     #[must_use]
-    pub fn with_record(mut self, record: &RecordedReport, changed: bool) -> Self {
+    pub fn with_record(mut self, record: &RecordedReport, change: Change<'_>) -> Self {
         for criterion in self.criteria.iter_mut().filter(|criterion| criterion.status == AnswerStatus::NotJudged) {
-            let known = |one: &&CriterionReport| one.name == criterion.name && one.expect == criterion.expect;
-            match record.criteria.iter().find(known) {
-                Some(known) if !changed => *criterion = CriterionReport { status: AnswerStatus::Recorded, ..known.clone() },
-                Some(_) => {
+            // Of a run that was cut short there is none, and its outcome says so.
+            let Some(known) = record.criteria.iter().find(|one| one.name == criterion.name) else { continue };
+            match change.held(known) {
+                Some(held) => *criterion = held,
+                None => {
                     let reason = criterion.not_judged_because.take().unwrap_or_default();
-                    criterion.not_judged_because = Some(format!("{reason}; the run's own answer is that of another scenario"));
+                    let help = "run it again, or expect nothing of it (`expect=report`)";
+                    criterion.not_judged_because = Some(format!("{reason}; the run's own answer is that of another scenario: {help}"));
+                    (criterion.required, criterion.as_expected) = (criterion.expect != "report", false);
                 }
-                None => {}
             }
         }
         self.criteria.push(recorded_criteria(record));
@@ -94,6 +108,33 @@ impl RunReport {
         let judged = if self.criteria.iter().any(CriterionReport::fails) { Outcome::CriteriaNotMet } else { Outcome::Passed };
         self.end_as(judged.max(record.outcome).max(self.outcome));
         self
+    }
+}
+
+impl Change<'_> {
+    /// A run's own answer, held against what is asked; `None` when it is one to another question or in another scene.
+    fn held(&self, known: &CriterionReport) -> Option<CriterionReport> {
+        let find = |specs: &[CriterionSpec]| specs.iter().find(|spec| spec.name == known.name).cloned();
+        let (ran, asked) = (find(self.ran)?, find(self.asked)?);
+        if self.scene || !ran.asks_the_same(&asked) {
+            return None;
+        }
+        let mut held = CriterionReport { status: AnswerStatus::Recorded, ..known.clone() };
+        if let (true, Some(limit)) = (ran.limit() != asked.limit(), asked.limit()) {
+            held.limit = Some(limit.value());
+            held.margin = known.value.map(|value| limit.margin(value));
+            held.passed = held.margin.is_some_and(|margin| margin >= 0.0);
+            // When the value crossed another limit the run does not tell.
+            held.first_failed_time_s = None;
+        }
+        let (expect, required) = (asked.expect.name(), asked.expect != Expectation::Report);
+        held.as_expected = match asked.expect {
+            Expectation::Pass => held.passed,
+            Expectation::Fail => !held.passed && held.value.is_some(),
+            Expectation::Report => true,
+        };
+        (held.expect, held.required) = (expect.into(), required);
+        Some(held)
     }
 }
 

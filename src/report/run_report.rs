@@ -114,7 +114,7 @@ pub enum AnswerStatus {
     Judged,
     /// A stored run gave it when it ran.
     Recorded,
-    /// There is none, and nothing depends on it.
+    /// There is none. Nothing depends on it, unless a change of a stored run took it away: then a required one is not as expected.
     NotJudged,
 }
 

@@ -15,15 +15,10 @@ use crate::world::{Clearance, ContactEpisode, NEAR_M, Object, Permission};
 const TOUCH_N: f64 = 0.05;
 
 pub(super) fn criterion(criterion: &Criterion) -> CriterionReport {
-    let expect = match criterion.expect {
-        Expectation::Pass => "pass",
-        Expectation::Fail => "fail",
-        Expectation::Report => "report",
-    };
     CriterionReport {
         name: criterion.name.clone(),
         required: criterion.expect != Expectation::Report && criterion.not_judged.is_none(),
-        expect: expect.into(),
+        expect: criterion.expect.name().into(),
         passed: criterion.passed,
         as_expected: criterion.as_expected(),
         value: finite(criterion.value),

@@ -22,6 +22,9 @@ const NO_ANSWER: &str = "has no answer: what it asks about never happened, or no
 
 /// Why the criterion is not as expected.
 pub(super) fn reason(criterion: &CriterionReport) -> String {
+    if criterion.not_judged_because.is_some() {
+        return numbers(criterion);
+    }
     let found = match (criterion.passed, criterion.value) {
         (true, _) => "holds, but should not".to_owned(),
         (false, None) => NO_ANSWER.to_owned(),

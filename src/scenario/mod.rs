@@ -11,6 +11,7 @@ mod build_criteria;
 mod build_learning;
 mod build_planar;
 mod build_scene;
+mod changes;
 mod check_coupling;
 mod check_doors;
 mod check_grasp;
@@ -56,6 +57,7 @@ mod walk;
 mod words;
 mod work;
 
+pub use changes::changed_keys;
 pub use diagnostic::{Diagnostic, InvalidScenario};
 pub use fault::{Code, Severity};
 pub use json_schema::{learning_schema, scenario_schema};

@@ -1,6 +1,7 @@
 //! The real binary, as a person or a CI job calls it.
 
 mod beside;
+mod changed_run;
 mod check;
 mod check_motion;
 mod check_run;
