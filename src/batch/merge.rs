@@ -5,12 +5,24 @@ use std::path::{Path, PathBuf};
 use super::table::Head;
 use super::table_file::{TableFile, write_table};
 use super::{BatchError, Cell};
+use crate::report::Outcome;
 
-/// Joins tables into `out`: their rows in the order of the members. Returns how many there are.
+/// What a joined table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MergedRows {
+    /// Rows.
+    pub rows: u64,
+    /// Rows of runs that did not pass.
+    pub not_passed: u64,
+    /// The worst outcome of all runs.
+    pub worst: Outcome,
+}
+
+/// Joins tables into `out`: their rows in the order of the members.
 ///
 /// # Errors
 /// When a table is damaged or of another sweep than the first, when a member is in two of them or in none, or `out` cannot be written.
-pub fn merge(tables: &[PathBuf], out: &Path) -> Result<u64, BatchError> {
+pub fn merge(tables: &[PathBuf], out: &Path) -> Result<MergedRows, BatchError> {
     let target = out.canonicalize().ok();
     if let Some(own) = tables.iter().find(|path| target.is_some() && of_table(path).canonicalize().ok() == target) {
         return Err(BatchError::NotAWhole(format!("{} is to be joined, and cannot be where the whole goes too", own.display())));
@@ -21,15 +33,29 @@ pub fn merge(tables: &[PathBuf], out: &Path) -> Result<u64, BatchError> {
     for source in &sources {
         same_sweep(&sources[0].table, &source.table)?;
     }
-    let mut next = 0;
+    let outcome_column = head.columns.iter().position(|column| column.name == "outcome");
+    let mut merged = MergedRows { rows: 0, not_passed: 0, worst: Outcome::Passed };
     let rows = std::iter::from_fn(|| {
-        let row = next_row(&mut sources, next, head.members).transpose();
-        next += 1;
+        let row = next_row(&mut sources, merged.rows, head.members).transpose();
+        if let Some(Ok(row)) = &row {
+            merged.add(outcome_column.and_then(|column| row.get(column)));
+        }
         row
     })
     .fuse();
     write_table(out, &head, rows)?;
-    Ok(head.members)
+    Ok(merged)
+}
+
+impl MergedRows {
+    /// Counts a run by the name of its outcome.
+    fn add(&mut self, outcome: Option<&Cell>) {
+        let named = |known: &Outcome| matches!(outcome, Some(Cell::Text(name)) if name == known.name());
+        let outcome = Outcome::ALL.into_iter().find(named).unwrap_or(Outcome::InternalError);
+        self.rows += 1;
+        self.not_passed += u64::from(outcome != Outcome::Passed);
+        self.worst = self.worst.max(outcome);
+    }
 }
 
 /// The table itself: the folder of a sweep stands for its own.

@@ -22,7 +22,7 @@ pub use cell::{Cell, CellKind};
 pub use error::BatchError;
 pub use execute::{Pace, Runner, execute};
 pub use folder::SweepFolder;
-pub use merge::merge;
+pub use merge::{MergedRows, merge};
 pub use plan::{NotReady, Plan, Terms};
 pub use row::{CriterionCell, Row};
 pub use shard::Shard;

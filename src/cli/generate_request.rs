@@ -1,6 +1,9 @@
 //! What `cpdmp generate` is asked for, by name: every slip of the command line at once.
 
+use nalgebra::{Quaternion, UnitQuaternion};
+
 use super::learning_args::{Generate, Method};
+use crate::demonstration::QUATERNION_COLUMNS;
 use crate::learning::dmp::Integrator;
 use crate::learning::{ExecutionSettings, ParameterSpace, Skill};
 use crate::scenario::did_you_mean;
@@ -20,8 +23,12 @@ pub(super) fn request(arguments: &Generate, skill: &Skill) -> Result<ExecutionSe
     let mut known = motion.parameters.names.clone();
     known.extend(force.names.iter().filter(|name| !motion.parameters.names.contains(name)).cloned());
     let theta = assigned("--theta", &arguments.theta, &known, &mut slips);
-    let start = assigned("--start", &arguments.start, &motion.columns, &mut slips);
-    let goal = assigned("--goal", &arguments.goal, &motion.columns, &mut slips);
+    let mut columns = motion.columns.clone();
+    columns.extend(skill.orientation.iter().flat_map(|_| QUATERNION_COLUMNS.map(str::to_owned)));
+    let mut start = assigned("--start", &arguments.start, &columns, &mut slips);
+    let mut goal = assigned("--goal", &arguments.goal, &columns, &mut slips);
+    let start_orientation = orientation("--start", &mut start, &mut slips);
+    let goal_orientation = orientation("--goal", &mut goal, &mut slips);
     let mut positive = |flag: &str, value: f64| {
         if !(value > 0.0 && value.is_finite()) {
             slips.push(format!("{flag} is {value}, but must be a positive number"));
@@ -60,7 +67,30 @@ pub(super) fn request(arguments: &Generate, skill: &Skill) -> Result<ExecutionSe
         Method::Hold => Integrator::ExactHold,
         Method::Rk4 => Integrator::RungeKutta4,
     };
-    Ok(ExecutionSettings { theta_m, theta_f, start, goal, duration_s: arguments.duration, integrator, ..ExecutionSettings::default() })
+    let duration_s = arguments.duration;
+    let ends = ExecutionSettings { start, goal, start_orientation, goal_orientation, ..ExecutionSettings::default() };
+    Ok(ExecutionSettings { theta_m, theta_f, duration_s, integrator, ..ends })
+}
+
+/// Takes the quaternion (x, y, z, w) out of what was named, if it is there: all four components, of any length but zero.
+fn orientation(flag: &str, named: &mut Vec<(String, f64)>, slips: &mut Vec<String>) -> Option<UnitQuaternion<f64>> {
+    let components = QUATERNION_COLUMNS.map(|column| named.iter().find(|(name, _)| name == column).map(|(_, value)| *value));
+    named.retain(|(name, _)| !QUATERNION_COLUMNS.contains(&name.as_str()));
+    match components {
+        [None, None, None, None] => None,
+        [Some(x), Some(y), Some(z), Some(w)] => {
+            let quaternion = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9);
+            if quaternion.is_none() {
+                slips.push(format!("{flag}: qx, qy, qz, qw are all zero, which is no orientation"));
+            }
+            quaternion
+        }
+        _ => {
+            let missing = QUATERNION_COLUMNS.iter().zip(&components).filter(|(_, value)| value.is_none()).map(|(name, _)| *name);
+            slips.push(format!("{flag}: an orientation has four components; missing: {}", missing.collect::<Vec<_>>().join(", ")));
+            None
+        }
+    }
 }
 
 /// Start and goal at these parameters; those that are read off the movement stand in the middle of what was demonstrated.

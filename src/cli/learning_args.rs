@@ -95,10 +95,10 @@ pub(super) struct Generate {
     /// A parameter of the motion or the force; may be repeated. One that was the same in all demonstrations keeps that value
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub theta: Vec<String>,
-    /// Where a motion column starts; may be repeated. Columns that are not named start as learned
+    /// Where a motion column starts; may be repeated. Columns that are not named start as learned. qx, qy, qz, qw together are the orientation
     #[arg(long, value_name = "COLUMN=VALUE", allow_hyphen_values = true)]
     pub start: Vec<String>,
-    /// Where a motion column ends; may be repeated. Columns that are not named end as learned
+    /// Where a motion column ends; may be repeated. Columns that are not named end as learned. qx, qy, qz, qw together are the orientation
     #[arg(long, value_name = "COLUMN=VALUE", allow_hyphen_values = true)]
     pub goal: Vec<String>,
     /// How long the movement takes (s); as demonstrated without it

@@ -90,3 +90,17 @@ fn what_check_cannot_do_is_said_before_anything_runs() {
     let said = folder.call(&["validate", "s/a.toml", "--format", "junit"]);
     assert!(said.code == Some(2) && said.stderr.contains("for cpdmp check"), "{}", said.stderr);
 }
+
+/// Contract: a scenario that asks nothing passes, but not without a word, nor where warnings are denied.
+#[test]
+fn a_scenario_without_criteria_is_warned_about() {
+    let asks_nothing = GOOD.split("[[criterion]]").next().expect("what is before the criterion");
+    let folder = Folder::with(&[("a.toml", asks_nothing.as_bytes()), ("b.toml", GOOD.as_bytes())]);
+    let said = folder.call(&["check", "a.toml"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(said.stderr.contains("a.toml: warning: it has no [[criterion]]"), "{}", said.stderr);
+    let said = folder.call(&["check", "a.toml", "--deny-warnings"]);
+    assert_eq!(said.code, Some(10), "{}", said.stdout);
+    assert!(said.stdout.contains("no [[criterion]]") && said.stdout.contains("0 of 1 as expected"), "{}", said.stdout);
+    assert!(!folder.call(&["check", "b.toml"]).stderr.contains("no [[criterion]]"), "it asks something");
+}

@@ -128,3 +128,44 @@ fn a_reader_who_leaves_is_no_error_and_a_full_disk_is_one() {
     let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("there");
     assert_eq!(command().stdout(full).status().expect("ended").code(), Some(20));
 }
+
+/// Contract: an end's orientation is four components, of any length; the movement starts and settles there. Slips are told.
+#[test]
+fn a_movement_starts_and_ends_with_the_orientation_asked_for() {
+    let mut csv = String::from("time_s,repetition,x_m,qx,qy,qz,qw\n");
+    for (demonstration, i) in (0..3).flat_map(|demonstration| (0..101).map(move |i| (demonstration, i))) {
+        let s = (f64::from(i) / 100.0).powi(3) * (10.0 + f64::from(i) / 100.0 * (f64::from(i) * 0.06 - 15.0));
+        // It turns by 1 rad about the vertical axis.
+        let (z, w) = (0.5 * s).sin_cos();
+        csv += &format!("{},{demonstration},{},0,0,{z},{w}\n", f64::from(i) * 0.02, s + 0.1 * f64::from(demonstration) * (1.0 - s));
+    }
+    let folder = Folder::with(&[("d.csv", csv.as_bytes())]);
+    let said = folder.call(&["learn", "d.csv", "--theta", "start", "--out", "s.json"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    let generate = |ends: &[&str]| folder.call(&[&["generate", "s.json", "--start", "x_m=0.1", "--until", "1.5"], ends].concat());
+    let turned_rad = |row: &[f64]| 2.0 * row[4].atan2(row[5]);
+    let (z, w) = 0.75_f64.sin_cos();
+    let [goal_z, goal_w] = [format!("qz={}", 3.0 * z), format!("qw={}", 3.0 * w)];
+    let asked = ["--goal", "qx=0", "--goal", "qy=0", "--goal", &goal_z, "--goal", &goal_w];
+    for (ends, from, to) in [
+        (&[][..], 0.0, 1.0),
+        (&asked, 0.0, 1.5),
+        (
+            &["--start", "qx=0", "--start", "qy=0", "--start", "qz=0.5", "--start", "qw=0.8660254037844386"],
+            std::f64::consts::FRAC_PI_3,
+            1.0,
+        ),
+    ] {
+        let said = generate(ends);
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+        let rows = rows(&said.stdout);
+        assert!((turned_rad(&rows[0]) - from).abs() < 0.01, "starts at {} rad, not {from}", turned_rad(&rows[0]));
+        let last = rows.last().expect("samples");
+        assert!((turned_rad(last) - to).abs() < 0.01, "ends at {} rad, not {to}", turned_rad(last));
+    }
+    let said = generate(&["--goal", "qx=0", "--goal", "qw=1", "--start", "qx=0", "--start", "qy=0", "--start", "qz=0", "--start", "qw=0"]);
+    assert_eq!((said.code, said.stdout.as_str()), (Some(2), ""));
+    for told in ["--goal: an orientation has four components; missing: qy, qz", "--start: qx, qy, qz, qw are all zero"] {
+        assert!(said.stderr.contains(told), "{}", said.stderr);
+    }
+}

@@ -2,13 +2,14 @@
 
 use nalgebra::DVector;
 
-use super::{Phmm, Sequence};
+use super::{Phmm, Sequence, mean_and_spread};
 use crate::learning::{Gmr, LearningError};
 
 /// Root mean square error of the regression (14) on `sequences`, each column in units of its standard deviation over `all` (-).
 pub(in crate::learning) fn prediction_error(model: &Phmm, sequences: &[Sequence], all: &[Sequence]) -> Result<f64, LearningError> {
     let d = model.dimension();
-    let scale = spreads(all, d);
+    let column = |j: usize| all.iter().flat_map(move |s| s.values.iter().skip(j).step_by(d).copied());
+    let scale: Vec<f64> = (0..d).map(|j| mean_and_spread(column(j)).1).collect();
     let (mut squares, mut count) = (0.0, 0.0);
     for sequence in sequences {
         let means: Vec<DVector<f64>> = (0..model.states()).map(|i| model.mean_at(i, &sequence.theta)).collect();
@@ -21,16 +22,4 @@ pub(in crate::learning) fn prediction_error(model: &Phmm, sequences: &[Sequence]
         }
     }
     Ok((squares / f64::max(count, 1.0)).sqrt())
-}
-
-/// Standard deviation of every variable; 1 for one that is constant.
-fn spreads(sequences: &[Sequence], d: usize) -> Vec<f64> {
-    let of = |j: usize| {
-        let values = || sequences.iter().flat_map(move |s| s.values.iter().skip(j).step_by(d).copied());
-        let n = values().count() as f64;
-        let mean = values().sum::<f64>() / n;
-        let spread = (values().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
-        if spread > 1e-9 * mean.abs() && spread > 0.0 { spread } else { 1.0 }
-    };
-    (0..d).map(of).collect()
 }
