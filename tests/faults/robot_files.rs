@@ -125,6 +125,29 @@ fn programs_are_told_what_is_odd_about_a_robot() {
     assert!(warnings.len() == 1 && warnings[0].as_str().is_some_and(|warning| warning.starts_with("b.urdf:")), "{answer}");
 }
 
+/// Masses in grams, inertias in other units and centres in millimetres are possible, but no robot's: a warning names the line.
+#[test]
+fn masses_that_no_matter_has_are_warned_about() {
+    let (mut tiny, lines) = malformed(Link, MASS, MASS);
+    for axis in ["xx", "xy", "xz", "yy", "yz", "zz"] {
+        let range = Link.range();
+        let at = range.start + tiny[range].find(&format!("i{axis}=\"")).expect("there") + 5;
+        let end = at + tiny[at..].find('"').expect("it ends");
+        let number: f64 = tiny[at..end].parse().expect("a number");
+        tiny.replace_range(at..end, &format!("{:e}", number * 1e-4));
+    }
+    for (text, told) in [
+        (malformed(Link, MASS, r#"value="4312.72""#).0, "denser than any matter"),
+        (tiny, "denser than any matter"),
+        (malformed(Link, CENTER, r#"xyz="-2.76 1.32 180.86""#).0, "180.886 m from the link's origin"),
+    ] {
+        let said = validate(text.as_bytes());
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+        let warned = lines.clone().any(|line| said.stderr.contains(&format!("b.urdf:{line}: ")));
+        assert!(warned && said.stderr.contains(told), "{told}, in lines {lines:?}: {}", said.stderr);
+    }
+}
+
 #[test]
 fn row_8_robots_that_are_bombs_or_no_text_are_refused() {
     let deep = format!("<robot name=\"r\">{}{}</robot>", "<gazebo>".repeat(100_000), "</gazebo>".repeat(100_000));

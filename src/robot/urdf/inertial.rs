@@ -8,6 +8,10 @@ use super::outline::child;
 
 /// Radius of gyration (m) above which an inertia was probably given in other units than its mass.
 const LARGEST_GYRATION: f64 = 2.0;
+/// Distance (m) of a centre of mass from its link's origin above which it was probably given in millimetres.
+const FARTHEST_CENTER: f64 = 2.0;
+/// Density (kg/m^3) of osmium, the densest matter there is on Earth.
+const OSMIUM: f64 = 22_590.0;
 /// Relative shortfall of the triangle inequality put down to rounding in the file.
 const TRIANGLE_ROUNDING: f64 = 1e-3;
 
@@ -15,6 +19,7 @@ impl Check<'_> {
     pub(super) fn inertial(&mut self, inertial: Node<'_, '_>) {
         self.at_most_one(inertial, &["origin", "mass", "inertia"]);
         self.origin(inertial);
+        self.center(inertial);
         let mass = match child(inertial, "mass") {
             Some(mass) => self.required_number(mass, "value"),
             None => {
@@ -31,6 +36,16 @@ impl Check<'_> {
         };
         if let (Some(mass), Some(inertia)) = (mass, inertia) {
             self.mass_and_inertia(inertial, mass, &inertia);
+        }
+    }
+
+    fn center(&mut self, inertial: Node<'_, '_>) {
+        let Some(origin) = child(inertial, "origin") else { return };
+        // What is no number is told where the origin as a whole is looked at.
+        let xyz = origin.attribute("xyz").unwrap_or_default().split_whitespace().filter_map(|number| number.parse::<f64>().ok());
+        let distance = xyz.map(|x| x * x).sum::<f64>().sqrt();
+        if distance.is_finite() && distance > FARTHEST_CENTER {
+            self.warning(origin, format!("the centre of mass is {distance:.3} m from the link's origin"), "metres are expected");
         }
     }
 
@@ -63,6 +78,31 @@ impl Check<'_> {
             let power = 2.0 * (gyration / 0.1).log10().round();
             let message = format!("a mass of {mass} kg with {moments} is spread over {gyration:.3} m");
             self.warning(node, message, &format!("kg m^2 are expected; a factor of 1e-{power} would be plausible"));
+        } else if least_density(mass, principal.sum() / 2.0) > OSMIUM {
+            let message = format!("a mass of {mass} kg with {moments} is denser than any matter");
+            self.warning(node, message, "kg and kg m^2 are expected: the mass is too large, or the inertia too small");
         }
+    }
+}
+
+/// What a body of that mass (kg) has somewhere at least as its density (kg/m^3), when the integral of the squared distance from its centre of
+/// mass is `moment` (kg m^2): that of a ball, since no body of one density keeps its mass nearer to its centre.
+fn least_density(mass: f64, moment: f64) -> f64 {
+    let radius = (5.0 / 3.0 * moment / mass).sqrt();
+    mass / (4.0 / 3.0 * std::f64::consts::PI * radius.powi(3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::least_density;
+
+    /// A ball of 0.3 m and 1000 kg/m^3 by closed forms; of the same mass, a rod is looser.
+    #[test]
+    fn a_ball_has_the_least_density_itself() {
+        let mass = 1000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.027;
+        let about_diameter = 0.4 * mass * 0.09;
+        assert!((least_density(mass, 1.5 * about_diameter) / 1000.0 - 1.0).abs() < 1e-12);
+        let about_the_middle_of_a_rod = mass * 1.0 / 12.0;
+        assert!(least_density(mass, about_the_middle_of_a_rod) < 1000.0);
     }
 }
