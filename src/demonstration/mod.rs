@@ -54,6 +54,7 @@ mod error;
 mod list;
 mod list_entries;
 mod list_schema;
+mod lookalikes;
 mod notes;
 mod parameter_source;
 mod parquet;

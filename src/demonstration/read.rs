@@ -6,6 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use super::doubts::constant_columns;
 use super::list::{LIST, List};
 use super::list_entries::Entry;
+use super::lookalikes::lookalikes;
 use super::notes::{Notes, about};
 use super::samples::{self, Piece};
 use super::table::{Table, is_samples};
@@ -21,7 +22,7 @@ pub struct Import {
     pub dataset: Dataset,
     /// One sentence each, in the order of the files; empty when everything was taken as it stands.
     pub notes: Vec<String>,
-    /// What may be another thing than it was taken for; empty when the list says which columns move.
+    /// What may be another thing than it was taken for.
     pub warnings: Vec<String>,
 }
 
@@ -103,7 +104,8 @@ impl Reader {
         if self.faults.is_empty() {
             about(&dataset, &mut self.notes);
             let listed = self.list.motion.is_some();
-            let warnings = if listed { Vec::new() } else { constant_columns(&dataset.demonstrations, &dataset.motion) };
+            let mut warnings = if listed { Vec::new() } else { constant_columns(&dataset.demonstrations, &dataset.motion) };
+            warnings.extend(lookalikes(&dataset));
             Ok(Import { dataset, notes: self.notes.in_words(), warnings })
         } else {
             self.faults.truncate(MOST);

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::WrenchValidation;
 use super::table::{figure, table};
+use super::wrench_section::ALL;
 use crate::learning::selection::{CrossValidation, ErrorSize, MovementError, Reproduction};
 
 /// The error of one movement against one demonstration, at equal time fractions.
@@ -146,7 +147,7 @@ impl ValidationSection {
                 .iter()
                 .map(|held| row(&held.demonstration, outside(held.extrapolation), &held.with_ends, &held.parameters_alone, &held.lwr)),
         );
-        rows.push(row("all", String::new(), &self.with_ends, &self.parameters_alone, &self.lwr));
+        rows.push(row(ALL, String::new(), &self.with_ends, &self.parameters_alone, &self.lwr));
         let winner = if self.better == "cpdmp" { "the skill" } else { "the baseline LWR-DMP" };
         let mut lines = vec![format!("Cross-validation: error in {unit}, {} times learned without what is predicted", self.folds)];
         lines.extend(table(&rows));

@@ -2,7 +2,7 @@
 
 use super::error_section::{opening, turn};
 use super::table::{figure, table};
-use super::wrench_section::rows_of;
+use super::wrench_section::{ALL, rows_of};
 use super::{ChoiceSection, ErrorRow, FitSection, LearnReport, WrenchValidation};
 
 const BOLD: &str = "\u{1b}[1m";
@@ -71,7 +71,7 @@ impl LearnReport {
 }
 
 fn row(error: &ErrorRow) -> Vec<String> {
-    let mut row = vec![error.demonstration.clone().unwrap_or("all".to_owned()), figure(error.rms), figure(error.max)];
+    let mut row = vec![error.demonstration.clone().unwrap_or_else(|| ALL.to_owned()), figure(error.rms), figure(error.max)];
     row.extend(error.rms_columns.iter().map(|rms| figure(*rms)));
     row.extend(turn(error).into_iter().chain(opening(error)));
     row

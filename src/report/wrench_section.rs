@@ -89,6 +89,9 @@ impl WrenchValidation {
     }
 }
 
+/// What the last row of a table of errors is called: means of the rms errors, the largest of the largest.
+pub(super) const ALL: &str = "all: mean, largest";
+
 /// A table of rows: names, what else is told before the errors, and the errors; `first` is the heading up to there.
 pub(super) fn rows_of<'a>(
     mut first: Vec<String>,
@@ -98,7 +101,7 @@ pub(super) fn rows_of<'a>(
     let names = rows.clone().next().into_iter().flat_map(|row| row.columns.keys());
     first.extend(names.flat_map(|name| [format!("rms {name}"), format!("max {name}")]));
     let row = |row: &WrenchRow| {
-        let mut cells = vec![row.demonstration.clone().unwrap_or("all".to_owned())];
+        let mut cells = vec![row.demonstration.clone().unwrap_or_else(|| ALL.to_owned())];
         cells.extend(also(row));
         cells.extend(row.columns.values().flat_map(|size| [figure(size.rms), figure(size.max)]));
         cells

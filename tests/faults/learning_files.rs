@@ -162,7 +162,9 @@ fn without_checksum(text: &str) -> String {
 fn row_23_damaged_skills_are_refused_and_the_message_says_what_to_do() {
     let text = skill_text();
     let bare = without_checksum(text);
+    let threshold = bare.lines().find(|line| line.contains("\"threshold_m2\"")).expect("there");
     for (bad, part) in [
+        (bare.replacen(threshold, "\"threshold_m2\": -1.0,", 1), "must not be negative"),
         (text[..text.len() / 2].to_owned(), "not complete"),
         (text.replacen("\"version\": 1", "\"version\": 9", 1), "newer"),
         (text.replacen("cpdmp-skill", "cpdmp-run2", 1), "not a skill file"),
