@@ -36,6 +36,9 @@ pub(super) enum Command {
     /// Check scenarios and what they need, without simulating: all faults at once
     #[command(after_long_help = examples::VALIDATE)]
     Validate(Paths),
+    /// Let the virtual human teach: all lessons, each replayed for its wrenches, go into a new dataset (--out)
+    #[command(after_long_help = examples::TEACH)]
+    Teach(Teach),
     /// Learn a skill from a dataset, simulated or your own
     Learn(Learn),
     /// Generate a skill's movement for new parameters, start and goal, without physics
@@ -103,6 +106,14 @@ pub(super) struct Files {
     /// Say what would be changed, and change nothing
     #[arg(long)]
     pub dry_run: bool,
+}
+
+/// What is taught.
+#[derive(Debug, Args)]
+pub(super) struct Teach {
+    /// The scenario whose lessons are given
+    #[arg(value_name = "SCENARIO")]
+    pub scenario: PathBuf,
 }
 
 /// A run that is over.

@@ -31,6 +31,11 @@ pub(super) const MERGE: &str = "\
 Examples:
   cpdmp merge sweeps/one sweeps/two --out whole.parquet";
 
+pub(super) const TEACH: &str = "\
+Examples:
+  cpdmp teach scenarios/pick_and_place.toml --out demonstrations/pick_and_place
+  cpdmp teach scenarios/pick_and_place.toml --set teaching.repetitions=2 --out twice";
+
 pub(super) const REPLAY: &str = "\
 Examples:
   cpdmp replay runs/pick_and_place-0

@@ -11,12 +11,13 @@ use super::args::Cli;
 const ANYWHERE: [&str; 6] = ["jobs", "format", "verbose", "quiet", "color", "no_progress"];
 
 /// Every command with the other flags that it takes.
-const TAKEN: [(&str, &[&str]); 17] = [
+const TAKEN: [(&str, &[&str]); 18] = [
     ("run", &["set", "seed", "robot", "asset_root", "lenient", "deny_warnings", "out", "timeout"]),
     ("check", &["set", "seed", "robot", "asset_root", "lenient", "deny_warnings", "timeout"]),
     ("validate", &["set", "seed", "robot", "asset_root", "lenient", "deny_warnings"]),
     ("sweep", &["set", "seed", "robot", "asset_root", "lenient", "deny_warnings", "out", "timeout"]),
     ("replay", &["set", "seed", "robot", "asset_root", "lenient", "deny_warnings", "timeout"]),
+    ("teach", &["set", "seed", "robot", "asset_root", "lenient", "deny_warnings", "out", "timeout"]),
     ("learn", &["set", "seed", "lenient", "out"]),
     ("list", &["asset_root", "lenient", "deny_warnings"]),
     ("figures", &["asset_root", "out"]),

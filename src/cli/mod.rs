@@ -45,6 +45,7 @@ mod sweep_args;
 mod sweep_progress;
 mod sweep_report;
 mod sweep_text;
+mod teach;
 mod terminal;
 mod validate;
 mod view;
@@ -104,6 +105,7 @@ fn dispatch(cli: &Cli, without_effect: Vec<String>) -> Outcome {
         Command::View(arguments) => view::view(arguments, &terminal),
         Command::Migrate(arguments) => migrate::migrate(&arguments.files, arguments.dry_run, &terminal),
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.global, &terminal),
+        Command::Teach(arguments) => teach::teach(arguments, &cli.global, &terminal),
         Command::Replay(arguments) => replay::replay(arguments, &cli.global, &terminal),
         Command::Merge(arguments) => merge::merge(arguments, &cli.global, &terminal),
         Command::Figures(arguments) => figures::figures(&arguments.folder, &cli.global, &terminal),

@@ -24,6 +24,7 @@ mod replay;
 mod run_folder;
 mod schemas;
 mod sweep;
+mod teach;
 mod view;
 
 pub use program::{Folder, GOOD, Said, cpdmp};
