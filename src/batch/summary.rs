@@ -71,7 +71,7 @@ impl Summary {
     /// Counts one row.
     pub fn add(&mut self, row: &Row) {
         self.runs += 1;
-        let outcome = Outcome::ALL.into_iter().find(|outcome| outcome.name() == row.outcome).unwrap_or(Outcome::InternalError);
+        let outcome = Outcome::named(&row.outcome).unwrap_or(Outcome::InternalError);
         self.worst = self.worst.max(outcome);
         if let (None, Some(reason)) = (&self.first_failure, &row.failure_reason) {
             self.first_failure = Some(FirstFailure { index: row.index, reason: reason.clone(), command: row.command.clone() });

@@ -16,9 +16,6 @@ use crate::report::{CheckReport, Checked, InputFault, Outcome, Replaceable, chec
 use crate::scenario::{Diagnostic, LoadOptions, Scenario, Severity};
 use crate::simulation::Progress;
 
-/// What is said of a scenario that asks nothing.
-const NOTHING_ASKED: &str = "it has no [[criterion]], so it passes whatever the arm touches and wherever the movement ends";
-
 /// Checks everything that the arguments name, on all cores. One that cannot be run does not keep the others from being checked; the worst
 /// outcome counts.
 pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> Outcome {
@@ -64,10 +61,6 @@ fn simulated(path: &Path, options: &LoadOptions, global: &Global, terminal: &Ter
         }
         Ok(scenario) => {
             let mut run = judged_run(&scenario, &clock);
-            if run.report.outcome == Outcome::Passed && run.report.criteria.is_empty() {
-                terminal.note(&format!("{name}: warning: {NOTHING_ASKED}\n"));
-                run.report.warnings.push(NOTHING_ASKED.to_owned());
-            }
             if global.deny_warnings {
                 run.report.deny_warnings();
             }

@@ -54,7 +54,6 @@ mod error;
 mod list;
 mod list_entries;
 mod list_schema;
-mod lookalikes;
 mod notes;
 mod parameter_source;
 mod parquet;

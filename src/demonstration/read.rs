@@ -3,10 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
-use super::doubts::constant_columns;
+use super::doubts::doubts;
 use super::list::{LIST, List};
 use super::list_entries::Entry;
-use super::lookalikes::lookalikes;
 use super::notes::{Notes, about};
 use super::samples::{self, Piece};
 use super::table::{Table, is_samples};
@@ -103,9 +102,7 @@ impl Reader {
         }
         if self.faults.is_empty() {
             about(&dataset, &mut self.notes);
-            let listed = self.list.motion.is_some();
-            let mut warnings = if listed { Vec::new() } else { constant_columns(&dataset.demonstrations, &dataset.motion) };
-            warnings.extend(lookalikes(&dataset));
+            let warnings = doubts(&dataset, self.list.motion.is_some());
             Ok(Import { dataset, notes: self.notes.in_words(), warnings })
         } else {
             self.faults.truncate(MOST);

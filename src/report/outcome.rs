@@ -52,6 +52,11 @@ impl Outcome {
         Self::InternalError,
     ];
 
+    /// The outcome of that name in a report or table.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|outcome| outcome.name() == name)
+    }
+
     /// The exit code of the program.
     pub fn exit_code(self) -> u8 {
         match self {

@@ -21,6 +21,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     unique_names(scenario, "beside", &mut faults);
     names_beside(scenario, &mut faults);
     references(scenario, &mut faults);
+    nothing_asked(scenario, &mut faults);
     square_cabinets(scenario, &mut faults);
     handles_on_doors(scenario, &mut faults);
     planar(scenario, &mut faults);
@@ -42,6 +43,14 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     rates(scenario, &mut faults);
     pushes(scenario, &mut faults);
     faults
+}
+
+/// Warns where no criterion can fail.
+fn nothing_asked(scenario: &Node, faults: &mut Vec<Fault>) {
+    if list(scenario, "criterion").is_empty() {
+        let message = "without a criterion this passes, whatever touches and wherever the movement ends";
+        faults.push(Fault::at(Code::MissingKey, scenario.origin, message).expected("a [[criterion]]").warning());
+    }
 }
 
 /// The items of a list of the scenario.

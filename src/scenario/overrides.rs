@@ -41,6 +41,21 @@ pub fn spelled(key: &str) -> String {
     key.split('.').map(str::trim).collect::<Vec<_>>().join(".")
 }
 
+/// The steps of a dotted key, items of lists by their numbers: the same for all spellings of one place in `tree`. What is not there stays as it
+/// was typed.
+pub(super) fn steps(tree: &Node, key: &str) -> Vec<String> {
+    let mut at = Some(tree);
+    let step = |name: &str| {
+        let index = match at.map(|node| &node.value) {
+            Some(Value::List(items)) => find(items, name),
+            _ => None,
+        };
+        at = index.map_or_else(|| at.and_then(|node| node.get(name)), |index| at.and_then(|node| node.items().get(index)));
+        index.map_or_else(|| name.to_owned(), |index| index.to_string())
+    };
+    key.split('.').map(str::trim).map(step).collect()
+}
+
 /// A text of the command line, typed after the flag `name`.
 pub(super) fn of_command_line(name: &str, typed: &str) -> Source {
     Source { name: name.to_owned(), directory: PathBuf::new(), text: typed.into(), rank: COMMAND_LINE }
@@ -120,11 +135,15 @@ fn entry<'a>(entries: &'a mut Vec<Entry>, step: &Step<'_>) -> &'a mut Node {
     &mut entries[index].node
 }
 
-/// An item of a list: by its name, or by its number from 0.
+/// The number of an item that is called by its name, or by its number from 0.
+fn find(items: &[Node], name: &str) -> Option<usize> {
+    let by_name = items.iter().position(|item| item.name() == Some(name));
+    by_name.or_else(|| name.parse().ok().filter(|&index: &usize| index < items.len()))
+}
+
+/// An item of a list.
 fn item<'a>(items: &'a mut [Node], step: &Step<'_>) -> Result<&'a mut Node, Fault> {
-    let by_name = items.iter().position(|item| item.name() == Some(step.name));
-    let by_number = || step.name.parse().ok().filter(|&index: &usize| index < items.len());
-    if let Some(index) = by_name.or_else(by_number) {
+    if let Some(index) = find(items, step.name) {
         return Ok(&mut items[index]);
     }
     let names: Vec<&str> = items.iter().filter_map(Node::name).collect();

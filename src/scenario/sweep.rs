@@ -11,7 +11,7 @@ use super::diagnostic::{InvalidScenario, diagnose};
 use super::fault::{Code, Fault, Severity, deny_warnings, tolerate_unknown_keys};
 use super::key::{Key, Kind, Shape};
 use super::load::{LoadOptions, Scenario, fill, layered};
-use super::overrides::{self, spelled};
+use super::overrides::{self, steps};
 use super::roots::Roots;
 use super::schema_sweep::SWEEP;
 use super::source::{Origin, Sources};
@@ -59,9 +59,9 @@ impl Sweep {
         let flags: Vec<Axis> = sweep.grid.iter().filter_map(|typed| sweep_flags::grid(typed, &mut sources, &mut faults)).collect();
         let repeat = sweep.repeat.map(|count| sweep_flags::repeat(count, seed, &mut sources));
         for axis in flags.into_iter().chain(repeat) {
-            add(&mut axes, axis, &sources);
+            add(&mut axes, axis, &tree, &sources);
         }
-        faults.extend(contradictions(&axes, options));
+        faults.extend(contradictions(&axes, &tree, options));
         if options.lenient {
             tolerate_unknown_keys(&mut faults);
         }
@@ -175,9 +175,10 @@ fn lift(node: &mut Node, sources: &mut Sources) {
 }
 
 /// Adds a direction of the command line. The file says no more about its keys.
-fn add(axes: &mut Vec<Axis>, axis: Axis, sources: &Sources) {
+fn add(axes: &mut Vec<Axis>, axis: Axis, tree: &Node, sources: &Sources) {
+    let told: Vec<Vec<String>> = axis.keys.iter().map(|key| steps(tree, &key.name)).collect();
     for typed in axes.iter_mut() {
-        let told = |name: &str| axis.keys.iter().any(|key| key.name == name);
+        let told = |name: &str| told.contains(&steps(tree, name));
         typed.keys.retain(|key| sources.is_override(key.origin) || !told(&key.name));
     }
     axes.retain(|typed| !typed.keys.is_empty());
@@ -185,9 +186,12 @@ fn add(axes: &mut Vec<Axis>, axis: Axis, sources: &Sources) {
 }
 
 /// Keys that two entries vary, or that something else decides.
-fn contradictions(axes: &[Axis], options: &LoadOptions) -> Vec<Fault> {
+fn contradictions(axes: &[Axis], tree: &Node, options: &LoadOptions) -> Vec<Fault> {
     let keys: Vec<_> = axes.iter().flat_map(|axis| &axis.keys).collect();
-    let set: Vec<String> = options.set.iter().filter_map(|typed| Some(spelled(typed.split_once('=')?.0))).collect();
+    let places: Vec<Vec<String>> = keys.iter().map(|key| steps(tree, &key.name)).collect();
+    let set: Vec<Vec<String>> = options.set.iter().filter_map(|typed| Some(steps(tree, typed.split_once('=')?.0))).collect();
+    // One within the other: whichever is put in place last would change what the other says.
+    let within = |a: &[String], b: &[String]| a.starts_with(b) || b.starts_with(a);
     let mut faults = Vec::new();
     for (index, key) in keys.iter().enumerate() {
         let mut refuse = |message: String, expected: &str| faults.push(Fault::at(Code::Conflict, key.origin, message).expected(expected));
@@ -195,12 +199,12 @@ fn contradictions(axes: &[Axis], options: &LoadOptions) -> Vec<Fault> {
         if ["extends", "sweep", "schema_version", "name"].contains(&first) {
             refuse(format!("`{}` cannot vary in a sweep", key.name), "a key that says something about the experiment");
         }
-        if keys[..index].iter().any(|earlier| earlier.name == key.name) {
+        if places[..index].iter().any(|earlier| within(earlier, &places[index])) {
             refuse(format!("`{}` varies twice", key.name), "one entry of the sweep per key");
         }
         // Repetitions begin at the seed of `--seed`; listed seeds leave it nothing to say.
         let seeded = key.name == "seed" && options.seed.is_some() && key.is_listed();
-        if set.contains(&key.name) || seeded || (key.name == "robot.urdf" && options.robot.is_some()) {
+        if set.iter().any(|set| within(set, &places[index])) || seeded || (key.name == "robot.urdf" && options.robot.is_some()) {
             refuse(format!("`{}` varies, but a flag gives it one value", key.name), "one of the two");
         }
         if let Some(again) = key.repeated() {

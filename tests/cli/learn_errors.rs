@@ -134,3 +134,29 @@ fn a_column_that_is_constant_inside_every_repetition_is_asked_about() {
         assert!(said.code == Some(0) && !said.stdout.contains(asked), "{said_so}: {}{}", said.stdout, said.stderr);
     }
 }
+
+/// Contract: orientations and forces under names that are not known for them are learned or left out as told, but not without a warning.
+#[test]
+fn columns_that_look_like_orientations_or_forces_are_warned_about() {
+    let rows: String =
+        (0..60).map(|i| format!("{},{},0,0,0,1,{}\n", f64::from(i) * 0.05, (f64::from(i) / 20.0).sin(), f64::from(i).cos())).collect();
+    let with = |names: &str, list: Option<&str>| {
+        let csv = format!("time_s,x_m,{names}\n{rows}");
+        let files = [("a.csv", csv.as_bytes()), ("dataset.toml", list.unwrap_or_default().as_bytes())];
+        let said = Folder::with(&files[..if list.is_some() { 2 } else { 1 }]).call(&["learn", ".", "--out", "s.json"]);
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+        format!("{}{}", said.stdout, said.stderr)
+    };
+    let unknown = "quat_x,quat_y,quat_z,quat_w,force_x_n";
+    let said = with(unknown, None);
+    for told in ["quat_x, quat_y, quat_z, quat_w look like a quaternion, and are learned as motion", "force_x_n looks like a force"] {
+        assert!(said.contains(told), "{told}: {said}");
+    }
+    let said = with(unknown, Some("schema_version = 1\nmotion = [\"x_m\"]\nwrench = [\"force_x_n\"]\n"));
+    assert!(said.contains("look like a quaternion, and are left out") && !said.contains("looks like a force"), "{said}");
+    let said = with("qx,qy,qz,qw,fx_n", None);
+    assert!(!said.contains("look like") && !said.contains("looks like"), "{said}");
+    // What is listed as motion is meant to be motion.
+    let said = with("turn,f_n,a,b,c", Some("schema_version = 1\nmotion = [\"x_m\", \"f_n\"]\n"));
+    assert!(!said.contains("looks like"), "{said}");
+}

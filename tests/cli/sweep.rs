@@ -186,6 +186,10 @@ fn a_faulty_member_is_told_where_it_was_typed_before_anything_is_written() {
     for (flags, told) in [
         (&["--set", "planar.clearance_m=1"][..], "a flag gives it one value"),
         (&["--set", " planar . clearance_m =1"], "a flag gives it one value"),
+        (&["--grid", "criterion.clear.min_m=0.1,0.2", "--set", "criterion.0.min_m=50"], "a flag gives it one value"),
+        (&["--grid", "criterion.clear.min_m=0.1,0.2", "--set", "criterion.clear={min_m = 50}"], "a flag gives it one value"),
+        (&["--grid", "criterion.clear.min_m=0.1,0.2", "--grid", "criterion.0.min_m=3,4"], "varies twice"),
+        (&["--grid", "planar.start_m.0=0,1", "--grid", "planar.start_m=[0,-4],[1,-4]"], "varies twice"),
         (&["--grid", "planar. clearance_m=1,2", "--grid", "planar.clearance_m=3"], "varies twice"),
         (&["--grid", "planar.hand.rate_hz=25,50,25"], "this value of `planar.hand.rate_hz` is listed twice"),
     ] {

@@ -116,8 +116,8 @@ impl Skill {
         if !finite(c.values_m2.iter().chain(&c.beta).chain(c.between.iter().flat_map(|b| b.iter()))) || c.threshold_m2.is_nan() {
             return wrong("compliance holds a number that is not finite".to_owned());
         }
-        if c.threshold_m2 < 0.0 {
-            return wrong(format!("compliance.threshold_m2 is {}, but must not be negative", c.threshold_m2));
+        if let Some(value) = c.values_m2.iter().chain([&c.threshold_m2]).find(|value| **value < 0.0) {
+            return wrong(format!("compliance.values_m2 or threshold_m2 holds {value}, but must not be negative"));
         }
         if let Some(beta) = c.beta.iter().find(|beta| **beta != 0.0 && **beta != -1.0) {
             return wrong(format!("compliance.beta holds {beta}, but must be 0 (stiff) or -1 (complies)"));

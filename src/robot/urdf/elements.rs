@@ -116,14 +116,15 @@ impl<'a> Check<'a> {
     }
 
     /// The pose of an element, which may be absent.
-    pub(super) fn origin(&mut self, node: Node<'_, '_>) {
-        if let Some(origin) = child(node, "origin") {
-            self.optional(origin, "xyz", 3);
-            self.optional(origin, "rpy", 3);
-            if self.optional(origin, "quat_xyzw", 4).is_some() && origin.attribute("rpy").is_some() {
-                self.error(origin, "has both `rpy` and `quat_xyzw`", "keep one");
-            }
+    /// Checks the <origin> of an element, and returns its `xyz` where it has one.
+    pub(super) fn origin(&mut self, node: Node<'_, '_>) -> Option<Vec<f64>> {
+        let origin = child(node, "origin")?;
+        let xyz = self.optional(origin, "xyz", 3);
+        self.optional(origin, "rpy", 3);
+        if self.optional(origin, "quat_xyzw", 4).is_some() && origin.attribute("rpy").is_some() {
+            self.error(origin, "has both `rpy` and `quat_xyzw`", "keep one");
         }
+        xyz
     }
 
     pub(super) fn named(&mut self, node: Node<'_, '_>) {

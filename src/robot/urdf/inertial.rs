@@ -18,8 +18,10 @@ const TRIANGLE_ROUNDING: f64 = 1e-3;
 impl Check<'_> {
     pub(super) fn inertial(&mut self, inertial: Node<'_, '_>) {
         self.at_most_one(inertial, &["origin", "mass", "inertia"]);
-        self.origin(inertial);
-        self.center(inertial);
+        let distance = self.origin(inertial).map_or(0.0, |center| center.iter().map(|x| x * x).sum::<f64>().sqrt());
+        if distance > FARTHEST_CENTER {
+            self.warning(inertial, format!("the centre of mass is {distance:.3} m from the link's origin"), "metres are expected");
+        }
         let mass = match child(inertial, "mass") {
             Some(mass) => self.required_number(mass, "value"),
             None => {
@@ -36,16 +38,6 @@ impl Check<'_> {
         };
         if let (Some(mass), Some(inertia)) = (mass, inertia) {
             self.mass_and_inertia(inertial, mass, &inertia);
-        }
-    }
-
-    fn center(&mut self, inertial: Node<'_, '_>) {
-        let Some(origin) = child(inertial, "origin") else { return };
-        // What is no number is told where the origin as a whole is looked at.
-        let xyz = origin.attribute("xyz").unwrap_or_default().split_whitespace().filter_map(|number| number.parse::<f64>().ok());
-        let distance = xyz.map(|x| x * x).sum::<f64>().sqrt();
-        if distance.is_finite() && distance > FARTHEST_CENTER {
-            self.warning(origin, format!("the centre of mass is {distance:.3} m from the link's origin"), "metres are expected");
         }
     }
 
