@@ -170,7 +170,7 @@ pub(super) struct Check {
     /// Parquet with `time_s` and joint angles or tool poses)
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
-    /// Judge files of samples in the scene of this scenario
+    /// Judge files of samples, also those that lie in the folders, in the scene of this scenario
     #[arg(long, value_name = "SCENARIO")]
     pub scene: Option<PathBuf>,
     /// Write the verdict as JUnit to this file, whatever else is printed

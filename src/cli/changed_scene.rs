@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::sweep::quoted;
 use crate::report::InputFault;
-use crate::scenario::{LoadOptions, Scenario, Work, changed_keys};
+use crate::scenario::{Code, LoadOptions, Scenario, Work, changed_keys};
 use crate::simulation::moved_otherwise;
 
 /// A stored run, as flags find it.
@@ -53,7 +53,14 @@ impl<'a> Ran<'a> {
         let flags = flags.iter().map(|flag| flag.typed.as_str()).collect::<Vec<_>>().join(" ");
         let again = format!("cpdmp run {} {flags} --out ANOTHER_FOLDER", self.path.display());
         let message = format!("{flags} {message}; run it again: {again}");
-        Some(InputFault { code: "conflict".to_owned(), warning: false, file: file.to_owned(), line: None, column: None, message })
+        Some(InputFault {
+            code: Code::Conflict.describe().0.to_owned(),
+            warning: false,
+            file: file.to_owned(),
+            line: None,
+            column: None,
+            message,
+        })
     }
 
     fn moved(&self, asked: &Scenario) -> Vec<String> {

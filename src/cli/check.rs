@@ -12,17 +12,19 @@ use super::judged_run::judged_run;
 use super::load::options;
 use super::progress::Clock;
 use super::terminal::Terminal;
-use crate::report::{CheckReport, Checked, InputFault, Outcome, Replaceable, check_text, github, junit, prepare_file, replace_file};
+use crate::report::{
+    CheckReport, Checked, InputFault, Outcome, OutputError, Replaceable, check_text, github, junit, junit_without_verdict, replace_file,
+};
 use crate::scenario::{Diagnostic, LoadOptions, Scenario, Severity};
 use crate::simulation::Progress;
 
 /// Checks everything that the arguments name, on all cores. One that cannot be run does not keep the others from being checked; the worst
 /// outcome counts.
 pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> Outcome {
-    // Whether the verdict can be written is known before minutes are spent on it.
-    if let Some(Err(error)) = arguments.junit.as_deref().map(|path| prepare_file(path, Replaceable::Junit)) {
-        terminal.error(&format!("error: {error}\n"));
-        return error.outcome();
+    // Whether the verdict can be written is known before minutes are spent on it; and until it is written, an earlier one does not stand for it.
+    let write = |text: &str| arguments.junit.as_deref().map_or(Ok(()), |path| replace_file(path, text.as_bytes(), Replaceable::Junit));
+    if let Err(error) = write(&junit_without_verdict()) {
+        return not_written(&error, terminal);
     }
     let targets = match targets(arguments, terminal) {
         Ok(targets) => targets,
@@ -41,25 +43,24 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     });
     let report = CheckReport::of(checks.collect(), clock.elapsed_s());
     tell(&report, global, terminal);
-    let written = arguments.junit.as_deref().map(|path| replace_file(path, junit(&report).as_bytes(), Replaceable::Junit));
-    match written {
-        Some(Err(error)) => {
-            terminal.error(&format!("error: {error}\n"));
-            report.outcome.max(error.outcome())
-        }
-        _ => report.outcome,
-    }
+    write(&junit(&report)).map_or_else(|error| report.outcome.max(not_written(&error, terminal)), |()| report.outcome)
+}
+
+fn not_written(error: &OutputError, terminal: &Terminal) -> Outcome {
+    terminal.error(&format!("error: {error}\n"));
+    error.outcome()
 }
 
 fn simulated(path: &Path, options: &LoadOptions, global: &Global, terminal: &Terminal) -> Checked {
     let clock = Clock::with_limit(global.timeout);
     let name = path.display().to_string();
-    match Scenario::load(path, options) {
+    match Scenario::load_with_sweep(path, options) {
         Err(invalid) => {
             terminal.faults(&invalid.0);
             Checked::refused(name, "scenario", faults(&invalid.0), clock.elapsed_s())
         }
         Ok(scenario) => {
+            terminal.faults(&scenario.warnings);
             let mut run = judged_run(&scenario, &clock);
             if global.deny_warnings {
                 run.report.deny_warnings();

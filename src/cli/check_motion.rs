@@ -1,6 +1,6 @@
 //! `cpdmp check` of a movement that is not simulated, in the scene of a scenario.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::check::faults;
 use super::judged_run::outcome_of;
@@ -9,7 +9,7 @@ use super::terminal::Terminal;
 use crate::check::{CriterionSpec, allow, judge_motion};
 use crate::demonstration::{DemonstrationError, read_trajectory};
 use crate::recording::step_columns;
-use crate::report::{Checked, InputFault, Outcome, RunReport};
+use crate::report::{Checked, FileCode, InputFault, Outcome, RunReport};
 use crate::scenario::{LoadOptions, Scenario, Work};
 use crate::simulation::{ArmMotion, Experiment, MotionOutcome, Progress, Setup, SimulationError, check_columns, check_motion};
 
@@ -17,9 +17,11 @@ use crate::simulation::{ArmMotion, Experiment, MotionOutcome, Progress, Setup, S
 pub(super) fn judged_trajectory(samples: &Path, scene: &Path, options: &LoadOptions, clock: &Clock, terminal: &Terminal) -> Checked {
     judged(samples, "trajectory", scene, options, clock, terminal, |scenario| match &scenario.work {
         Work::Arm(experiment) => movement(experiment, scenario, &scenario.criteria, samples, clock),
-        Work::Planar(_) => {
-            Err(vec![whole_file(scene, "planar", "it has no arm: a movement can only be judged in the scene of an arm".to_owned())])
-        }
+        Work::Planar(_) => Err(vec![InputFault::of_file(
+            scene,
+            FileCode::Planar,
+            "it has no arm: a movement can only be judged in the scene of an arm".to_owned(),
+        )]),
     })
 }
 
@@ -68,9 +70,21 @@ pub(super) fn movement(
             Ok(RunReport::of_motion(experiment, &outcome, &judge_motion(&outcome, experiment, criteria)))
         }
         Err(SimulationError::Demonstrations(error)) => Err(of_data(samples, &error)),
-        Err(error) if outcome_of(&error) == Outcome::InvalidInput => Err(vec![whole_file(samples, "trajectory", error.to_string())]),
+        Err(error) if is_of_the_scene(&error) => {
+            let scene = scenario.files.first().map_or(samples, PathBuf::as_path);
+            Err(vec![InputFault::of_file(scene, FileCode::Scene, error.to_string())])
+        }
+        Err(error) if outcome_of(&error) == Outcome::InvalidInput => {
+            Err(vec![InputFault::of_file(samples, FileCode::Trajectory, error.to_string())])
+        }
         Err(error) => Ok(RunReport::failed(&experiment.name, experiment.seed, outcome_of(&error), &error.to_string())),
     }
+}
+
+/// Whether the robot or the scene cannot be used, whatever moves in it.
+fn is_of_the_scene(error: &SimulationError) -> bool {
+    use SimulationError::{Arm, JointCounts, Scene, UnknownParts, Urdf, World};
+    outcome_of(error) == Outcome::InvalidInput && matches!(error, Urdf(_) | Arm(_) | JointCounts(_) | UnknownParts(_) | World(_) | Scene(_))
 }
 
 fn moved(experiment: &Experiment, samples: &Path, clock: &Clock) -> Result<MotionOutcome, SimulationError> {
@@ -85,15 +99,11 @@ fn moved(experiment: &Experiment, samples: &Path, clock: &Clock) -> Result<Motio
 
 /// Every fault of the samples with its line.
 fn of_data(samples: &Path, error: &DemonstrationError) -> Vec<InputFault> {
-    let mut told: Vec<InputFault> = error.faults().iter().map(|fault| whole_file(samples, "trajectory", fault.to_string())).collect();
+    let mut told: Vec<InputFault> =
+        error.faults().iter().map(|fault| InputFault::of_file(samples, FileCode::Trajectory, fault.to_string())).collect();
     for (told, fault) in told.iter_mut().zip(error.faults()) {
         told.line = fault.row;
         told.column = fault.row.map(|_| 1);
     }
-    if told.is_empty() { vec![whole_file(samples, "unreadable", error.to_string())] } else { told }
-}
-
-/// A fault of a file as a whole.
-pub(super) fn whole_file(file: &Path, code: &str, message: String) -> InputFault {
-    InputFault { code: code.to_owned(), warning: false, file: file.display().to_string(), line: None, column: None, message }
+    if told.is_empty() { vec![InputFault::of_file(samples, FileCode::Unreadable, error.to_string())] } else { told }
 }

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use super::changed_scene::Ran;
-use super::check_motion::{judged, movement, whole_file};
-use super::files::STEP_LOG;
+use super::check_motion::{judged, movement};
+use super::files::{REPORT, STEP_LOG};
 use super::progress::Clock;
 use super::recorded_run::{RecordedManifest, SCENARIO, as_recorded};
 use super::terminal::Terminal;
 use crate::check::{Criterion, not_judged};
-use crate::report::{Change, Checked, InputFault, Outcome, RecordedReport, RunReport};
+use crate::report::{Change, Checked, FileCode, InputFault, Outcome, RecordedReport, RunReport};
 use crate::scenario::{LoadOptions, Scenario, Work};
 
 /// What a stored run is called in reports.
@@ -21,13 +21,13 @@ pub(super) fn judged_again(folder: &Path, options: &LoadOptions, clock: &Clock, 
     let refused = |fault| Checked::refused(folder.display().to_string(), KIND, vec![fault], 0.0);
     let manifest = match RecordedManifest::read(folder) {
         Ok(manifest) => manifest,
-        Err(message) => return refused(whole_file(&folder.join("manifest.json"), "unreadable", message)),
+        Err(message) => return refused(InputFault::of_file(&folder.join("manifest.json"), FileCode::Unreadable, message)),
     };
     if let Some(message) = manifest.edited(folder) {
-        return refused(whole_file(&path, "edited", message));
+        return refused(InputFault::of_file(&path, FileCode::Edited, message));
     }
-    if let Some((file, message)) = manifest.altered(folder) {
-        return refused(whole_file(&file, "edited", message));
+    if let Some((file, message)) = manifest.altered(folder, &[REPORT, STEP_LOG]) {
+        return refused(InputFault::of_file(&file, FileCode::Edited, message));
     }
     let options = manifest.may_use(options);
     judged(folder, KIND, &path, &options, clock, terminal, |scenario| {

@@ -39,13 +39,19 @@ pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Targ
             files_like(path).into_iter().map(|file| Target::Trajectory(file, scene.clone())).collect()
         } else {
             let runs = runs_in(path).into_iter().map(Target::Run);
-            scenarios(path).into_iter().map(Target::Scenario).chain(runs).collect()
+            let moved =
+                arguments.scene.iter().flat_map(|scene| samples_in(path).into_iter().map(|file| Target::Trajectory(file, scene.clone())));
+            scenarios(path).into_iter().map(Target::Scenario).chain(runs).chain(moved).collect()
         };
         if found.is_empty() {
             terminal.error(&format!("error: {} names no scenario, run or trajectory\n", path.display()));
             outcome = outcome.max(Outcome::NothingSelected);
         }
         targets.extend(found);
+    }
+    if outcome == Outcome::Passed && arguments.scene.is_some() && !targets.iter().any(|target| matches!(target, Target::Trajectory(..))) {
+        terminal.error("error: --scene has no effect: no argument names a file of samples, or a folder that holds some\n");
+        outcome = outcome.max(Outcome::Usage);
     }
     if outcome == Outcome::Passed { Ok(targets) } else { Err(outcome) }
 }
@@ -58,6 +64,16 @@ fn is_run(path: &Path) -> bool {
 
 fn is_samples(path: &Path) -> bool {
     path.extension().is_some_and(|extension| SAMPLES.iter().any(|known| extension.eq_ignore_ascii_case(known)))
+}
+
+/// The files of samples in a folder, sorted.
+fn samples_in(folder: &Path) -> Vec<PathBuf> {
+    if !folder.is_dir() {
+        return Vec::new();
+    }
+    let mut files = files_like(&folder.join("*"));
+    files.retain(|file| is_samples(file));
+    files
 }
 
 /// The runs in a folder, sorted.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::args::{Format, Global};
 use super::terminal::Terminal;
-use crate::report::Outcome;
+use crate::report::{FileCode, Outcome};
 use crate::scenario::Code;
 
 /// One code with its meaning.
@@ -21,7 +21,10 @@ pub(super) fn explain(code: Option<&str>, _global: &Global, terminal: &Terminal)
     let mut outcomes = Outcome::ALL;
     outcomes.sort_by_key(|outcome| outcome.exit_code());
     let exits = outcomes.map(|outcome| Entry { exit_code: Some(outcome.exit_code()), name: outcome.name(), meaning: outcome.describe() });
-    let faults = Code::ALL.map(Code::describe).map(|(name, meaning)| Entry { exit_code: None, name, meaning });
+    let of_scenarios = Code::ALL.map(Code::describe);
+    let of_files =
+        FileCode::ALL.map(FileCode::describe).into_iter().filter(|(name, _)| of_scenarios.iter().all(|(known, _)| known != name));
+    let faults = of_scenarios.into_iter().chain(of_files).map(|(name, meaning)| Entry { exit_code: None, name, meaning });
     let asked = |entry: &Entry| code.is_none_or(|code| entry.name == code || entry.exit_code.is_some_and(|exit| exit.to_string() == code));
     let entries: Vec<Entry> = exits.into_iter().chain(faults).filter(asked).collect();
     if let Some(signal) = code.and_then(signal_of).filter(|_| entries.is_empty()) {
@@ -55,7 +58,11 @@ fn table(entries: &[Entry], all: bool) -> String {
         );
     }
     if !faults.is_empty() {
-        text += if all { "\nFaults of scenario files (all lead to exit code 3)\n" } else { "Fault of a scenario file (exit code 3)\n" };
+        text += if all {
+            "\nFaults of scenarios, stored runs and movements (all lead to exit code 3)\n"
+        } else {
+            "Fault of an input (exit code 3)\n"
+        };
         text.extend(faults.iter().map(|entry| format!("      {:<18} {}\n", entry.name, entry.meaning)));
     }
     text

@@ -1,12 +1,12 @@
 //! The files of a run: report, manifest and resolved scenario always, what was learned and recorded if the run came that far.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::judged_run::{JudgedRun, Left};
 use super::{figure_files, planar_files};
 use crate::recording;
-use crate::report::{Manifest, Outcome, OutputError, RunFolder, hash_bytes, hash_file, write_file};
+use crate::report::{FileHash, Manifest, Outcome, OutputError, RunFolder, hash_bytes, hash_file, write_file};
 use crate::scenario::{RecordingPlan, Scenario, Work};
 use crate::simulation::{Experiment, RunOutcome};
 
@@ -25,6 +25,12 @@ pub(super) const BESIDE: &str = "beside";
 /// The states from which a repetition can be taken up.
 pub(super) const SNAPSHOTS: &str = "snapshots.bin";
 
+/// What was learned.
+pub(super) const SKILL: &str = "skill.json";
+
+/// The folder with what was learned from.
+pub(super) const DEMONSTRATIONS: &str = "demonstrations";
+
 /// Writes everything into the folder. What cannot be written of a recording is returned, and told in the report, which is written all the
 /// same.
 pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<Vec<String>, OutputError> {
@@ -41,6 +47,7 @@ pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder
     let manifest = Manifest {
         report_xxh3_64: Some(hash_bytes(report.as_bytes())),
         steps_xxh3_64: hash_file(&folder.staging().join(STEP_LOG)).xxh3_64,
+        left: left(folder.staging()),
         ..manifest(run, scenario, started)
     };
     folder.write("manifest.json", &manifest.to_json())?;
@@ -59,10 +66,10 @@ fn recordings(left: &Left, scenario: &Scenario, folder: &Path) -> Vec<String> {
 fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folder: &Path) -> Vec<String> {
     let mut failures = Vec::new();
     if plan.demonstrations {
-        failures.extend(left.dataset.write(&folder.join("demonstrations")).err().map(|error| error.to_string()));
+        failures.extend(left.dataset.write(&folder.join(DEMONSTRATIONS)).err().map(|error| error.to_string()));
     }
     let skill = left.skill.to_json().map_err(|error| error.to_string());
-    let written = skill.and_then(|text| write_file(&folder.join("skill.json"), &text).map_err(|error| error.to_string()));
+    let written = skill.and_then(|text| write_file(&folder.join(SKILL), &text).map_err(|error| error.to_string()));
     failures.extend(written.err());
     if plan.steps {
         failures.extend(recording::write_step_log(&folder.join(STEP_LOG), left).err().map(|error| error.to_string()));
@@ -95,6 +102,16 @@ fn beside(left: &RunOutcome, folder: &Path) -> Result<(), String> {
         let place = folder.join(format!("{}.parquet", one.name));
         recording::write_step_log(&place, &one.outcome).map_err(|error| error.to_string())
     })
+}
+
+/// What a repetition is held against or taken up from, of what there is in the folder.
+fn left(folder: &Path) -> Vec<FileHash> {
+    let lessons = std::fs::read_dir(folder.join(DEMONSTRATIONS)).into_iter().flatten().flatten();
+    let mut names: Vec<PathBuf> = lessons.map(|entry| Path::new(DEMONSTRATIONS).join(entry.file_name())).collect();
+    names.sort();
+    names.extend([SKILL, STATE_LOG, SNAPSHOTS].map(PathBuf::from));
+    names.retain(|name| folder.join(name).is_file());
+    names.into_iter().map(|name| FileHash { path: name.clone(), ..hash_file(&folder.join(name)) }).collect()
 }
 
 fn manifest(run: &JudgedRun, scenario: &Scenario, started: SystemTime) -> Manifest {

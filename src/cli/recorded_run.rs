@@ -55,12 +55,15 @@ impl RecordedManifest {
         is_other.then(|| format!("this is not the scenario that was run, it has been edited since: {help}: `{}`", again()))
     }
 
-    /// The file of its folder that is not as the run wrote it, and what to do, if there is one. A run that was made before hashes were kept has
-    /// none.
-    pub fn altered(&self, folder: &Path) -> Option<(PathBuf, String)> {
-        let kept = [(REPORT, "report_xxh3_64"), (STEP_LOG, "steps_xxh3_64")];
-        let (path, is_there) = kept.into_iter().find_map(|(name, key)| {
-            let (path, written) = (folder.join(name), self.0[key].as_str()?);
+    /// The first file of its folder among `needed` (a folder stands for what is in it) that is not as the run wrote it, and what to do, if there
+    /// is one. A run that was made before hashes were kept has none.
+    pub fn altered(&self, folder: &Path, needed: &[&str]) -> Option<(PathBuf, String)> {
+        let kept = [(REPORT, "report_xxh3_64"), (STEP_LOG, "steps_xxh3_64")].map(|(name, key)| (name, self.0[key].as_str()));
+        let left = self.0["left"].as_array().map_or(&[][..], Vec::as_slice);
+        let left = left.iter().filter_map(|file| Some((file["path"].as_str()?, file["xxh3_64"].as_str())));
+        let is_needed = |name: &str| needed.iter().any(|needed| Path::new(name).starts_with(needed));
+        let (path, is_there) = kept.into_iter().chain(left).filter(|(name, _)| is_needed(name)).find_map(|(name, written)| {
+            let (path, written) = (folder.join(name), written?);
             let found = hash_file(&path).xxh3_64;
             (found.as_deref() != Some(written)).then_some((path, found.is_some()))
         })?;
@@ -87,9 +90,12 @@ impl RecordedManifest {
 }
 
 impl Recorded {
-    /// Reads the folder, or says why it holds no run that can be compared with.
-    pub fn read(folder: &Path) -> Result<Self, String> {
+    /// Reads the folder, or says why it holds no run that can be compared with, or not with what of it is `needed`.
+    pub fn read(folder: &Path, needed: &[&str]) -> Result<Self, String> {
         let manifest = RecordedManifest::read(folder)?;
+        if let Some((path, altered)) = manifest.altered(folder, needed) {
+            return Err(format!("{}: {altered}", path.display()));
+        }
         if let Some(edited) = manifest.edited(folder) {
             return Err(format!("{}: {edited}", folder.join(SCENARIO).display()));
         }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::args::Phase;
 use super::beginning::Beginning;
+use super::files::{DEMONSTRATIONS, SKILL};
 use super::judged_run::{Left, judged_run, outcome_of};
 use super::recorded_run::last_hash;
 use crate::check::planar_traces;
@@ -60,7 +61,7 @@ impl Repetition<'_> {
         match self.from {
             None => run(experiment),
             Some(Beginning::Phase(Phase::Learn)) => {
-                let demonstrations = DemonstrationSource::Dataset(self.folder.join("demonstrations"));
+                let demonstrations = DemonstrationSource::Dataset(self.folder.join(DEMONSTRATIONS));
                 run(&Experiment { demonstrations, ..experiment.clone() })
             }
             Some(Beginning::Phase(Phase::Execute)) => simulation::execute_again(experiment, &self.skill()?, self.progress),
@@ -70,7 +71,7 @@ impl Repetition<'_> {
 
     /// The skill that the run left.
     fn skill(&self) -> Result<Skill, LearningError> {
-        let path = self.folder.join("skill.json");
+        let path = self.folder.join(SKILL);
         Skill::read(&path).map_err(|error| match error {
             LearningError::Skill(message) => LearningError::Skill(format!("{}: {message}", path.display())),
             other => other,

@@ -1,8 +1,9 @@
 //! `cpdmp replay`: a run again, held against what its folder holds.
 
-use super::args::{Format, Global, Replay};
+use super::args::{Format, Global, Phase, Replay};
 use super::beginning::{Beginning, ineffective};
 use super::failure::Failure;
+use super::files::{DEMONSTRATIONS, SKILL, SNAPSHOTS, STATE_LOG};
 use super::load::options;
 use super::progress::Shown;
 use super::recorded_run::{Recorded, SCENARIO, as_recorded, is_changed};
@@ -22,7 +23,7 @@ pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -
     if !without_effect.is_empty() {
         return Failure::new(Outcome::Usage, without_effect).tell(terminal);
     }
-    let recorded = match Recorded::read(folder) {
+    let recorded = match Recorded::read(folder, &needed(arguments)) {
         Ok(recorded) => recorded,
         Err(text) => return stop(Outcome::InvalidInput, &text),
     };
@@ -61,6 +62,17 @@ pub(super) fn replay(arguments: &Replay, global: &Global, terminal: &Terminal) -
         Format::Json => terminal.json(&report),
     }
     report.outcome
+}
+
+/// What of the folder the repetition is held against or taken up from.
+fn needed(arguments: &Replay) -> Vec<&'static str> {
+    let taken_up: &[&str] = match (arguments.from, arguments.from_time) {
+        (_, Some(_)) => &[SKILL, SNAPSHOTS],
+        (Some(Phase::Execute), None) => &[SKILL],
+        (Some(Phase::Learn), None) => &[DEMONSTRATIONS],
+        (None, None) => &[],
+    };
+    [&[STATE_LOG], taken_up].concat()
 }
 
 /// Finds the very step, by running both scenarios again and keeping whole states where the hashes part. Possible only where the recorded run

@@ -47,7 +47,7 @@ pub(super) fn validate(paths: &[PathBuf], global: &Global, terminal: &Terminal) 
     };
     let options = options(global);
     let check = |path: &PathBuf| {
-        let mut checked = checked(path, Scenario::load(path, &options).map_err(|invalid| invalid.0));
+        let mut checked = checked(path, Scenario::load_with_sweep(path, &options).map_err(|invalid| invalid.0));
         if global.deny_warnings {
             checked.deny_warnings();
         }

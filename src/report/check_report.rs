@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{CollisionReport, CriterionReport, Outcome, RunReport};
+use super::{CollisionReport, CriterionReport, InputFault, Outcome, RunReport};
 use crate::world::RESOLUTION_M;
 
 /// The version of this format.
@@ -45,23 +45,6 @@ pub struct Checked {
     pub faults: Vec<InputFault>,
     /// The run; `null` when the input cannot be used.
     pub report: Option<RunReport>,
-}
-
-/// Something wrong or odd about a file.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct InputFault {
-    /// Its code; `cpdmp explain` knows those of scenarios.
-    pub code: String,
-    /// Whether the file can be used all the same.
-    pub warning: bool,
-    /// The file.
-    pub file: String,
-    /// Line, from 1, when it is at a place.
-    pub line: Option<usize>,
-    /// Column, from 1.
-    pub column: Option<usize>,
-    /// What is wrong, what was expected, and how to mend it.
-    pub message: String,
 }
 
 impl CheckReport {
@@ -115,17 +98,5 @@ impl Checked {
                 Some(errors.map(InputFault::line).collect::<Vec<_>>().join("\n"))
             }
         }
-    }
-}
-
-impl InputFault {
-    /// `file:line:column: error[code]: message`.
-    pub(super) fn line(&self) -> String {
-        let place = match (self.line, self.column) {
-            (Some(line), Some(column)) => format!("{}:{line}:{column}", self.file),
-            _ => self.file.clone(),
-        };
-        let kind = if self.warning { "warning" } else { "error" };
-        format!("{place}: {kind}[{}]: {}", self.code, self.message)
     }
 }

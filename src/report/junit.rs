@@ -21,6 +21,18 @@ pub fn junit(report: &CheckReport) -> String {
     document.to_string().expect("a string takes everything that is written to it")
 }
 
+/// What stands in the file until there is a verdict: an error, for who reads it then reads of a check that did not come to its end.
+#[must_use]
+pub fn junit_without_verdict() -> String {
+    let message = "the check did not come to its end: what it wrote to its standard error says why";
+    let status = not_success(NonSuccessKind::Error, "no_verdict", message);
+    let mut suite = TestSuite::new("cpdmp check");
+    suite.add_test_case(TestCase::new(COMPLETED, status));
+    let mut document = Report::new("cpdmp check");
+    document.add_test_suite(suite);
+    document.to_string().expect("a string takes everything that is written to it")
+}
+
 fn seconds(wall_s: f64) -> Duration {
     Duration::from_secs_f64(wall_s.max(0.0))
 }

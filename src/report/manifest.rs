@@ -38,16 +38,18 @@ pub struct Manifest {
     pub report_xxh3_64: Option<String>,
     /// The same of its `steps.parquet`; `null` when there is none.
     pub steps_xxh3_64: Option<String>,
+    /// What else it left that a repetition is held against or taken up from, as paths in the folder.
+    pub left: Vec<FileHash>,
     /// The files that decide the run.
     pub inputs: Vec<FileHash>,
     /// Where it ran.
     pub host: Host,
 }
 
-/// One file that decides a run.
+/// One file of a run: what decided it, or what it left.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FileHash {
-    /// Its path, as the scenario names it.
+    /// Its path: as the scenario names it, or in the folder of the run.
     pub path: PathBuf,
     /// Its length in bytes; `null` if it could not be read again.
     pub bytes: Option<u64>,
@@ -92,6 +94,7 @@ impl Manifest {
             scenario_xxh3_64: None,
             report_xxh3_64: None,
             steps_xxh3_64: None,
+            left: Vec::new(),
             inputs: Vec::new(),
             host: Host::this(),
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{AnswerStatus, CriterionReport, InputFault, Outcome, RunReport};
+use super::{AnswerStatus, CriterionReport, FileCode, InputFault, Outcome, RunReport};
 use crate::check::{CriterionSpec, Expectation};
 
 /// What a run said of itself.
@@ -50,14 +50,7 @@ impl RecordedReport {
     /// When `report.json` cannot be read or is no report of a run.
     pub fn read(folder: &Path) -> Result<Self, InputFault> {
         let path = folder.join("report.json");
-        let fault = |message: String| InputFault {
-            code: "unreadable".to_owned(),
-            warning: false,
-            file: path.display().to_string(),
-            line: None,
-            column: None,
-            message,
-        };
+        let fault = |message: String| InputFault::of_file(&path, FileCode::Unreadable, message);
         let text = std::fs::read_to_string(&path).map_err(|error| fault(format!("how the run ended cannot be read: {error}")))?;
         serde_json::from_str(&text).map_err(|error| InputFault {
             line: Some(error.line()),

@@ -27,6 +27,7 @@ mod joint_command;
 mod kinematics;
 mod lump;
 mod model;
+mod nearest;
 mod urdf;
 mod wrench_estimate;
 
@@ -36,5 +37,6 @@ pub use follow::FollowSettings;
 pub use inverse_kinematics::{IkOutcome, IkSettings, InverseKinematics, pose_error};
 pub use joint_command::JointCommand;
 pub use model::{Body, Frame, Geometry, Joint, JointKind, Mimic, RobotModel, Shape};
+pub use nearest::nearest_name;
 pub use urdf::{Attachment, Finding, LoadOptions, Loaded, Severity, UrdfError, load, parse};
 pub use wrench_estimate::{EffortModel, JointReading, Wrench, WrenchEstimator};

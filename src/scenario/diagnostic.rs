@@ -75,6 +75,19 @@ pub(super) fn diagnose(faults: Vec<Fault>, sources: &Sources) -> Vec<Diagnostic>
     ordered.into_iter().map(|fault| of_fault(fault, sources)).collect()
 }
 
+/// Diagnostics of several readings of the same files in the order of [`diagnose`], none twice.
+pub(super) fn in_order(mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let place = |found: &Diagnostic| (found.severity, found.file.clone(), found.line, found.column);
+    found.sort_by_key(place);
+    let mut once: Vec<Diagnostic> = Vec::with_capacity(found.len());
+    for diagnostic in found {
+        if !once.contains(&diagnostic) {
+            once.push(diagnostic);
+        }
+    }
+    once
+}
+
 fn of_fault(fault: Fault, sources: &Sources) -> Diagnostic {
     let (file, span, text) = match fault.place {
         Place::Text(origin) => {

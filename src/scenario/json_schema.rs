@@ -107,7 +107,7 @@ impl Writer {
             // A dotted key without quotes is a table in a table.
             Kind::Ranges => {
                 let pair = list(number(&Measure::ANY), Length::Exactly(2));
-                json!({ "type": "object", "additionalProperties": { "anyOf": [pair, { "type": "object" }] } })
+                json!({ "type": "object", "minProperties": 1, "additionalProperties": { "anyOf": [pair, { "type": "object" }] } })
             }
         }
     }

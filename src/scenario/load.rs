@@ -11,7 +11,7 @@ use super::check_overrides;
 use super::check_planar;
 use super::checks;
 use super::conform::Conform;
-use super::diagnostic::{Diagnostic, InvalidScenario, diagnose};
+use super::diagnostic::{Diagnostic, InvalidScenario, diagnose, in_order};
 use super::fault::{Code, Fault, Severity, deny_warnings, tolerate_unknown_keys};
 use super::layer;
 use super::overrides;
@@ -20,6 +20,7 @@ use super::resolved;
 use super::roots::Roots;
 use super::schema::{SCENARIO, SCHEMA_VERSION};
 use super::source::Sources;
+use super::sweep_checks;
 use super::tree::{Node, Value};
 use super::work::Work;
 use crate::check::{AllowedContact, CriterionSpec};
@@ -111,6 +112,19 @@ impl Scenario {
         Ok(Self { beside: beside.unwrap_or_default(), ..scenario })
     }
 
+    /// The same of a file all of which must be good: also the values that its `[[sweep]]` would give.
+    ///
+    /// # Errors
+    /// What [`Scenario::load`] tells, and what keeps the sweep of the file, as it stands without flags, from being run.
+    pub fn load_with_sweep(path: &Path, options: &LoadOptions) -> Result<Self, InvalidScenario> {
+        let of_sweep = sweep_checks::faults_of_file(path, options);
+        match Self::load(path, options) {
+            Ok(scenario) if of_sweep.iter().all(|found| found.severity == Severity::Warning) => Ok(scenario),
+            Ok(scenario) => Err(InvalidScenario(in_order(scenario.warnings.into_iter().chain(of_sweep).collect()))),
+            Err(invalid) => Err(InvalidScenario(in_order(invalid.0.into_iter().chain(of_sweep).collect()))),
+        }
+    }
+
     /// The scenario of a filled tree, unless there is none or something is wrong with it. What varies in sweeps or beside it is left aside.
     pub(super) fn of(filled: Option<Node>, faults: Vec<Fault>, sources: &Sources) -> Result<Self, InvalidScenario> {
         let diagnostics = diagnose(faults, sources);
@@ -118,7 +132,7 @@ impl Scenario {
             Some(mut filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => {
                 filled.take("sweep");
                 Ok(Self {
-                    work: work(&filled),
+                    work: work(&filled, sources),
                     criteria: build_criteria::criteria(&filled),
                     beside: Vec::new(),
                     allowed_contacts: build_criteria::allowed_contacts(&filled),
@@ -135,10 +149,10 @@ impl Scenario {
     }
 }
 
-fn work(filled: &Node) -> Work {
+fn work(filled: &Node, sources: &Sources) -> Work {
     match filled.get("planar") {
         Some(_) => Work::Planar(Box::new(build_planar::planar(filled))),
-        None => Work::Arm(Box::new(build::experiment(filled))),
+        None => Work::Arm(Box::new(build::experiment(filled, sources))),
     }
 }
 

@@ -49,6 +49,7 @@ mod source;
 mod suggest;
 mod sweep;
 mod sweep_axis;
+mod sweep_checks;
 mod sweep_flags;
 mod sweep_member;
 mod tree;

@@ -48,7 +48,14 @@ impl Conform<'_> {
             (Kind::Numbers, Value::Table(entries)) => Value::Table(entries.iter().map(|entry| self.free_number(entry, path)).collect()),
             (Kind::Grid, Value::Table(entries)) => Value::Table(entries.iter().map(|entry| self.free_numbers(entry, path)).collect()),
             (Kind::Values, Value::List(_)) => typed.value,
-            (Kind::Ranges, Value::Table(entries)) => Value::Table(self.ranges(entries, "", path)),
+            (Kind::Ranges, Value::Table(entries)) => {
+                let ranges = self.ranges(entries, "", path);
+                if ranges.is_empty() {
+                    let fault = Fault::at(Code::WrongLength, typed.origin, format!("`{path}` has no entries"));
+                    self.faults.push(fault.expected(kind.describe()));
+                }
+                Value::Table(ranges)
+            }
             _ => {
                 self.wrong_type(path, &typed, kind.describe());
                 Value::Missing

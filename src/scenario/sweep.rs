@@ -7,8 +7,8 @@
 use std::path::Path;
 
 use super::conform::Conform;
-use super::diagnostic::{InvalidScenario, diagnose};
-use super::fault::{Code, Fault, Severity, deny_warnings, tolerate_unknown_keys};
+use super::diagnostic::{InvalidScenario, diagnose, in_order};
+use super::fault::{Fault, Place, Severity, deny_warnings, tolerate_unknown_keys};
 use super::key::{Key, Kind, Shape};
 use super::load::{LoadOptions, Scenario, fill, layered};
 use super::overrides::{self, steps};
@@ -16,6 +16,7 @@ use super::roots::Roots;
 use super::schema_sweep::SWEEP;
 use super::source::{Origin, Sources};
 use super::sweep_axis::{Axis, Draw};
+use super::sweep_checks::contradictions;
 use super::sweep_flags;
 use super::sweep_member::{InvalidMember, Member, Setting, override_of};
 use super::tree::{Node, Value};
@@ -38,7 +39,7 @@ pub struct Sweep {
     tree: Node,
     sources: Sources,
     roots: Roots,
-    axes: Vec<Axis>,
+    pub(super) axes: Vec<Axis>,
     lenient: bool,
     deny_warnings: bool,
 }
@@ -68,11 +69,15 @@ impl Sweep {
         if options.deny_warnings {
             deny_warnings(&mut faults);
         }
+        let refused: Vec<Place> = faults.iter().map(|fault| fault.place.clone()).collect();
         let diagnostics = diagnose(faults, &sources);
-        if diagnostics.iter().any(|found| found.severity == Severity::Error) {
-            return Err(InvalidScenario(diagnostics));
+        let mut sweep = Self { tree, sources, roots, axes, lenient: options.lenient, deny_warnings: options.deny_warnings };
+        if diagnostics.iter().all(|found| found.severity == Severity::Warning) {
+            return Ok(sweep);
         }
-        Ok(Self { tree, sources, roots, axes, lenient: options.lenient, deny_warnings: options.deny_warnings })
+        // What is wrong with the other directions and with the file is told in the same pass.
+        sweep.axes.retain(|axis| !axis.keys.iter().any(|key| refused.contains(&Place::Text(key.origin))));
+        Err(InvalidScenario(in_order(diagnostics.into_iter().chain(sweep.faults()).collect())))
     }
 
     /// How many members there are; 0 when nothing varies.
@@ -93,7 +98,12 @@ impl Sweep {
     /// # Errors
     /// Every fault of the scenario that its values make, at the place where they were typed.
     pub fn member(&self, index: u64) -> Result<Member, Box<InvalidMember>> {
-        let values = self.values(index);
+        self.member_at(index, &self.points(index))
+    }
+
+    /// The member with these points of the directions.
+    pub(super) fn member_at(&self, index: u64, points: &[u64]) -> Result<Member, Box<InvalidMember>> {
+        let values = self.values(points);
         let mut tree = self.tree.clone();
         let mut faults = Vec::new();
         for (key, origin, value) in &values {
@@ -121,16 +131,21 @@ impl Sweep {
         }
     }
 
-    /// The value of every key in member number `index`.
-    fn values(&self, index: u64) -> Vec<(&str, Origin, Node)> {
+    /// The point of member number `index` in every direction.
+    fn points(&self, index: u64) -> Vec<u64> {
         let mut rest = index;
         let mut points = vec![0; self.axes.len()];
         for (point, axis) in points.iter_mut().zip(&self.axes).rev() {
             *point = rest % axis.points;
             rest /= axis.points;
         }
-        let both = self.axes.iter().zip(points);
-        both.flat_map(|(axis, point)| axis.keys.iter().map(move |key| (key.name.as_str(), key.origin, key.value(point)))).collect()
+        points
+    }
+
+    /// The value of every key at these points of the directions; a direction without points has none.
+    fn values(&self, points: &[u64]) -> Vec<(&str, Origin, Node)> {
+        let both = self.axes.iter().zip(points).filter(|(axis, point)| **point < axis.points);
+        both.flat_map(|(axis, point)| axis.keys.iter().map(move |key| (key.name.as_str(), key.origin, key.value(*point)))).collect()
     }
 }
 
@@ -183,34 +198,4 @@ fn add(axes: &mut Vec<Axis>, axis: Axis, tree: &Node, sources: &Sources) {
     }
     axes.retain(|typed| !typed.keys.is_empty());
     axes.push(axis);
-}
-
-/// Keys that two entries vary, or that something else decides.
-fn contradictions(axes: &[Axis], tree: &Node, options: &LoadOptions) -> Vec<Fault> {
-    let keys: Vec<_> = axes.iter().flat_map(|axis| &axis.keys).collect();
-    let places: Vec<Vec<String>> = keys.iter().map(|key| steps(tree, &key.name)).collect();
-    let set: Vec<Vec<String>> = options.set.iter().filter_map(|typed| Some(steps(tree, typed.split_once('=')?.0))).collect();
-    // One within the other: whichever is put in place last would change what the other says.
-    let within = |a: &[String], b: &[String]| a.starts_with(b) || b.starts_with(a);
-    let mut faults = Vec::new();
-    for (index, key) in keys.iter().enumerate() {
-        let mut refuse = |message: String, expected: &str| faults.push(Fault::at(Code::Conflict, key.origin, message).expected(expected));
-        let first = key.name.split('.').next().unwrap_or_default();
-        if ["extends", "sweep", "schema_version", "name"].contains(&first) {
-            refuse(format!("`{}` cannot vary in a sweep", key.name), "a key that says something about the experiment");
-        }
-        if places[..index].iter().any(|earlier| within(earlier, &places[index])) {
-            refuse(format!("`{}` varies twice", key.name), "one entry of the sweep per key");
-        }
-        // Repetitions begin at the seed of `--seed`; listed seeds leave it nothing to say.
-        let seeded = key.name == "seed" && options.seed.is_some() && key.is_listed();
-        if set.iter().any(|set| within(set, &places[index])) || seeded || (key.name == "robot.urdf" && options.robot.is_some()) {
-            refuse(format!("`{}` varies, but a flag gives it one value", key.name), "one of the two");
-        }
-        if let Some(again) = key.repeated() {
-            let fault = Fault::at(Code::Conflict, again.origin, format!("this value of `{}` is listed twice", key.name));
-            faults.push(fault.expected("every value once: --repeat N runs every member with N seeds"));
-        }
-    }
-    faults
 }

@@ -54,6 +54,8 @@ pub struct NamedPart {
     pub key: String,
     /// The name.
     pub name: String,
+    /// `FILE:LINE:COLUMN` where it was typed; a flag when it came from one.
+    pub place: String,
 }
 
 /// In which coordinates a motion is learned and executed.

@@ -49,12 +49,10 @@ fn check_parts(experiment: &Experiment, robot: &RobotModel) -> Result<(), Simula
     let is_object = |name: &str| experiment.objects.iter().any(|object| name.split('.').next() == Some(object.name.as_str()));
     let unknown = experiment.named_parts.iter().filter(|part| !is_object(&part.name) && !links().any(|link| link == part.name));
     let told: Vec<String> = unknown
-        .map(|NamedPart { key, name }| {
-            let near = links().chain(experiment.objects.iter().map(|object| object.name.as_str()));
-            let near: Vec<&str> =
-                near.filter(|known| known.len().abs_diff(name.len()) <= 1 && known.chars().next() == name.chars().next()).collect();
-            let help = if near.is_empty() { String::new() } else { format!("; of like names there are {}", near.join(", ")) };
-            format!("{key}: the robot has no link `{name}`, and the scene no object of that name{help}")
+        .map(|NamedPart { key, name, place }| {
+            let near = robot::nearest_name(name, links().chain(experiment.objects.iter().map(|object| object.name.as_str())));
+            let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            format!("{place}: {key}: the robot has no link `{name}`, and the scene no object of that name{help}")
         })
         .collect();
     if told.is_empty() { Ok(()) } else { Err(SimulationError::UnknownParts(told)) }

@@ -9,8 +9,12 @@ use super::{Folder, GOOD};
 
 /// The folder of [`GOOD`] with its run in `out`.
 fn ran() -> Folder {
+    ran_with(&[])
+}
+
+fn ran_with(flags: &[&str]) -> Folder {
     let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
-    assert_eq!(folder.call(&["run", "a.toml", "--out", "out", "-q"]).code, Some(0));
+    assert_eq!(folder.call(&[&["run", "a.toml", "--out", "out", "-q"], flags].concat()).code, Some(0));
     folder
 }
 
@@ -118,6 +122,10 @@ fn edited_hashes_are_told_as_edited() {
         let said = folder.call(&["replay", "out", "-q"]);
         assert!(said.code == Some(13) && said.stdout.contains(told), "{told}: {:?} {}", said.code, said.stdout);
     };
+    // The manifest would tell it first: here it vouches for nothing.
+    let manifest = folder.path().join("out/manifest.json");
+    let vouches = fs::read_to_string(&manifest).expect("written");
+    fs::write(&manifest, vouches.replace("\"left\"", "\"not_looked_at\"")).expect("written");
     let world = traces.len() - 1;
     let step = traces[world].trace.steps[1];
     let mut total = traces.clone();
@@ -131,4 +139,37 @@ fn edited_hashes_are_told_as_edited() {
     replay(&format!("the position of `{}` in step {step} does not belong to its total", traces[world].trace.bodies[0]));
     write_state_log(&log, &traces).expect("written");
     assert_eq!(folder.call(&["replay", "out", "-q"]).code, Some(0), "restored");
+}
+
+/// Contract: what a repetition begins with or is held against is what the run left; otherwise the file is named, and neither the program nor the
+/// data is blamed. What a repetition does not look at does not keep it from being made.
+#[test]
+fn a_repetition_of_what_the_run_did_not_leave_is_refused() {
+    let (folder, other) = (ran(), ran_with(&["--seed", "4"]));
+    let lesson = "demonstrations/block_height_0.17.csv";
+    let files: [(&str, &[&str]); 4] = [
+        ("state_hashes.parquet", &[]),
+        (lesson, &["--from", "learn"]),
+        ("skill.json", &["--from", "execute"]),
+        ("snapshots.bin", &["--from-time", "99"]),
+    ];
+    for (name, from) in files {
+        let place = folder.path().join("out").join(name);
+        let written = fs::read(&place).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let of_another = fs::read(other.path().join("out").join(name)).expect("written");
+        for edited in [Some(of_another), Some([&written[..], b"\n"].concat()), None] {
+            match edited {
+                Some(bytes) => fs::write(&place, bytes).expect("written"),
+                None => fs::remove_file(&place).expect("removed"),
+            }
+            let said = folder.call(&[&["replay", "out", "-q"], from].concat());
+            let told = format!("out/{name}: this is not the file that the run wrote");
+            assert!(said.code == Some(3) && said.stderr.contains(&told), "{name}: {:?} {}", said.code, said.stderr);
+            if !from.is_empty() {
+                assert_eq!(folder.call(&["replay", "out", "-q"]).code, Some(0), "as a whole it needs no {name}");
+            }
+        }
+        fs::write(&place, written).expect("written");
+        assert_eq!(folder.call(&[&["replay", "out", "-q"], from].concat()).code, Some(0), "restored");
+    }
 }

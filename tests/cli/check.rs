@@ -107,3 +107,20 @@ fn a_scenario_without_criteria_is_warned_about() {
     }
     assert!(!folder.call(&["check", "b.toml"]).stderr.contains("without a criterion"), "it asks something");
 }
+
+/// Contract: a verdict that was written earlier does not stand for a check that came to none.
+#[test]
+fn a_check_without_a_verdict_leaves_no_green_file() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let written = || std::fs::read_to_string(folder.path().join("v.xml")).expect("written");
+    assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
+    assert!(!written().contains("<error"), "{}", written());
+    for (arguments, code) in [(["absent/*.toml", "-q"], 5), (["a.csv", "-q"], 2)] {
+        let said = folder.call(&[&["check"], &arguments[..], &["--junit", "v.xml"]].concat());
+        assert_eq!(said.code, Some(code), "{}", said.stderr);
+        let told = written();
+        assert!(told.contains("errors=\"1\"") && told.contains("did not come to its end"), "{told}");
+    }
+    assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
+    assert!(!written().contains("<error"), "what stands there is replaced");
+}

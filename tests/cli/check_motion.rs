@@ -276,11 +276,26 @@ fn links_and_parts_that_do_not_exist_are_refused_by_name() {
     let folder = Folder::with(&[("a.toml", text.as_bytes())]);
     let said = folder.call(&["validate", "a.toml"]);
     assert_eq!(said.code, Some(3), "{}", said.stderr);
-    for told in [
-        "criterion.idle_hand.links: the robot has no link `right_hnd`, and the scene no object of that name; of like names there are right_hand",
-        "allowed_contact.tearing.a: the robot has no link `left_hnd`",
-        "allowed_contact.tearing.b: the robot has no link `shelv`, and the scene no object of that name; of like names there are screen, shelf",
-    ] {
-        assert!(said.stderr.contains(told), "{told}: {}", said.stderr);
+    let told = [
+        (
+            "right_hnd",
+            "criterion.idle_hand.links: the robot has no link `right_hnd`, and the scene no object of that name; did you mean `right_hand`?",
+        ),
+        ("left_hnd", "allowed_contact.tearing.a: the robot has no link `left_hnd`"),
+        ("shelv", "allowed_contact.tearing.b: the robot has no link `shelv`, and the scene no object of that name; did you mean `shelf`?"),
+    ];
+    let check = folder.call(&["check", "a.toml"]);
+    for (name, told) in told {
+        let (line, column) = place(&text, &format!("\"{name}\""));
+        let told = format!("a.toml:{line}:{column}: {told}");
+        assert!(said.stderr.contains(&told) && check.stdout.contains(&told), "{told}: {}{}", said.stderr, check.stdout);
     }
+    let wrong = folder.call(&["validate", "a.toml", "--set", "criterion.idle_hand.links=[\"lft_hand\"]"]).stderr;
+    assert!(wrong.contains("--set criterion.idle_hand.links=[\"lft_hand\"]: criterion.idle_hand.links: the robot has no"), "{wrong}");
+}
+
+/// Line and column, from 1, at which `needle` stands in `text`.
+fn place(text: &str, needle: &str) -> (usize, usize) {
+    let before = &text[..text.find(needle).expect("it stands there")];
+    (before.matches('\n').count() + 1, before.rsplit('\n').next().expect("a line").chars().count() + 1)
 }

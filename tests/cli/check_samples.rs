@@ -142,3 +142,25 @@ fn columns_that_say_nothing_are_warned_of() {
     assert_eq!(warnings(&pose(0.62)), "[]");
     assert!(warnings(&pose(0.72)).contains("`table` up to 100.0 mm"), "{}", warnings(&pose(0.72)));
 }
+
+/// Contract: with a scene, movements that lie in a folder are judged as if they had been named; a scene for nothing is a slip.
+#[test]
+fn movements_in_a_folder_are_judged_too() {
+    let mut far = REST;
+    far[0] = 1e4;
+    let folder = folder(&samples(&[REST, REST], &[]));
+    std::fs::create_dir(folder.path().join("moves")).expect("made");
+    for (name, end) in [("good.csv", REST), ("bad.tsv", far)] {
+        let text = samples(&[REST, end], &[]);
+        let text = if name.ends_with("tsv") { text.replace(',', "\t") } else { text };
+        std::fs::write(folder.path().join("moves").join(name), text).expect("written");
+    }
+    let said = folder.call(&["check", "moves", "--scene", "a.toml", "--format", "json", "-q"]);
+    assert_eq!(said.code, Some(10), "{}{}", said.stdout, said.stderr);
+    let checks = serde_json::from_str::<Value>(&said.stdout).expect("JSON")["checks"].clone();
+    let told: Vec<_> = checks.as_array().expect("a list").iter().map(|check| (check["path"].as_str(), check["outcome"].as_str())).collect();
+    assert_eq!(told, [(Some("moves/bad.tsv"), Some("criteria_not_met")), (Some("moves/good.csv"), Some("passed"))]);
+    assert_eq!(folder.call(&["check", "moves", "-q"]).code, Some(5), "without a scene there is nothing to judge them in");
+    let said = folder.call(&["check", "a.toml", "--scene", "a.toml", "-q"]);
+    assert!(said.code == Some(2) && said.stderr.contains("--scene has no effect"), "{:?} {}", said.code, said.stderr);
+}

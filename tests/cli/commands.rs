@@ -104,6 +104,10 @@ fn explain_knows_every_exit_code() {
     let said = good().call(&["explain", "unknown_key"]);
     assert!(said.stdout.contains("means nothing where it stands"));
     assert_eq!(good().call(&["explain", "77"]).code, Some(2));
+    for code in ["unreadable", "edited", "trajectory", "scene", "planar", "conflict"] {
+        let said = good().call(&["explain", code]);
+        assert!(said.code == Some(0) && said.stdout.matches(code).count() >= 1, "{code}: {}", said.stderr);
+    }
 }
 
 #[test]

@@ -24,6 +24,7 @@ mod replay;
 mod run_folder;
 mod schemas;
 mod sweep;
+mod sweep_faults;
 mod teach;
 mod view;
 

@@ -13,7 +13,7 @@ use super::program::names;
 use super::{Folder, GOOD};
 
 /// A planar experiment of a tenth of a second with a small sweep.
-const SHORT: &str = r#"
+pub(super) const SHORT: &str = r#"
 schema_version = 1
 name = "short"
 
@@ -41,7 +41,7 @@ settings = "taught"
 min_m = 0.5
 "#;
 
-const SWEPT: &str = r#"
+pub(super) const SWEPT: &str = r#"
 [[sweep]]
 kind = "grid"
 key = "planar.clearance_m"

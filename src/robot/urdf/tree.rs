@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::finding::{Findings, Place};
 use super::outline::{JointEntry, LinkEntry, Outline};
+use crate::robot::nearest_name;
 
 /// Checks the joined outlines of a robot and its attachments.
 pub(super) fn check_tree(outline: &Outline, findings: &mut Findings, origin: &Place) {
@@ -42,10 +43,9 @@ fn check_ends(joint: &JointEntry, links: &BTreeMap<&str, &Place>, findings: &mut
     let element = format!("joint `{}`", joint.name);
     for (end, link) in [("parent", &joint.parent), ("child", &joint.child)] {
         if !link.is_empty() && !links.contains_key(link.as_str()) {
-            let near = links.keys().map(|name| (strsim::damerau_levenshtein(name, link), *name)).min();
-            let help = match near {
-                Some((edits, name)) if edits <= 2 => format!("did you mean `{name}`?"),
-                _ => format!("remove the joint or add <link name=\"{link}\"/>"),
+            let help = match nearest_name(link, links.keys().copied()) {
+                Some(name) => format!("did you mean `{name}`?"),
+                None => format!("remove the joint or add <link name=\"{link}\"/>"),
             };
             findings.error(&joint.place, element.as_str(), format!("{end} link `{link}` does not exist"), &help);
         }

@@ -4,6 +4,7 @@ use roxmltree::Node;
 
 use super::finding::Findings;
 use super::outline::Lines;
+use crate::robot::nearest_name;
 
 /// What may stand in one element.
 struct Rule {
@@ -53,9 +54,6 @@ pub(super) const SHAPES: &[&str] = &["box", "cylinder", "capsule", "sphere", "me
 /// Elements that URDF knows and this simulation leaves out. `gazebo`, `transmission` and `ros2_control` say nothing about the mechanics
 /// and pass without a word.
 const NOT_SIMULATED: &[&str] = &["calibration", "safety_controller", "texture", "gravity"];
-
-/// How far a word may be from a known one to be taken for a slip of it (edits).
-const SLIP: usize = 2;
 
 /// Warns of elements and attributes that nothing reads, with the nearest known word; once per word, however often it stands there.
 pub(super) fn check_words(robot: Node<'_, '_>, lines: &Lines<'_>, findings: &mut Findings) {
@@ -122,10 +120,9 @@ impl<'a, 'input> Unread<'a, 'input> {
             findings.warning(&place, element, message, "");
             return;
         }
-        let near = self.known.iter().map(|word| (strsim::damerau_levenshtein(word, name), word)).min();
-        let help = match near {
-            Some((edits, word)) if edits <= SLIP => format!("did you mean `{word}`?"),
-            _ => format!("known here: {}", self.known.join(", ")),
+        let help = match nearest_name(name, self.known.iter().copied()) {
+            Some(word) => format!("did you mean `{word}`?"),
+            None => format!("known here: {}", self.known.join(", ")),
         };
         findings.warning(&place, element, format!("unknown {kind} `{name}` is ignored{often}"), &help);
     }
