@@ -20,6 +20,7 @@ mod figures;
 mod files;
 mod generate;
 mod generate_request;
+mod global_args;
 mod global_flags;
 mod inspect;
 mod judged_run;
@@ -55,6 +56,7 @@ mod watched;
 #[cfg(feature = "web-viewer")]
 mod web_page;
 
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -120,9 +122,16 @@ fn dispatch(cli: &Cli, without_effect: Vec<String>) -> Outcome {
 
 /// Help and version are results; everything else is a command line that makes no sense.
 fn told_by_clap(error: &clap::Error) -> Outcome {
-    // A closed pipe is no error here either.
-    _ = error.print();
-    if error.use_stderr() { Outcome::Usage } else { Outcome::Passed }
+    let printed = error.print().and_then(|()| std::io::stdout().flush());
+    match printed {
+        _ if error.use_stderr() => Outcome::Usage,
+        // A closed pipe is no error here either.
+        Err(lost) if lost.kind() != ErrorKind::BrokenPipe => {
+            terminal::complain(&format!("error: the standard output cannot be written: {lost}\n"));
+            Outcome::OutputFailed
+        }
+        _ => Outcome::Passed,
+    }
 }
 
 /// Told once, even when several threads meet the same bug.

@@ -3,9 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::run_report::CriterionReport;
-use super::sections;
 use super::table::{figure, table};
+use super::{CriterionReport, sections};
 use crate::check::Criterion;
 use crate::simulation::Beside;
 

@@ -8,6 +8,9 @@ mod check_report;
 mod check_text;
 mod choice_section;
 mod comparison;
+mod compliance_report;
+mod contact_report;
+mod criterion_report;
 mod data_section;
 mod error_section;
 mod github;
@@ -38,6 +41,9 @@ pub use check_report::{CheckReport, Checked};
 pub use check_text::check_text;
 pub use choice_section::{Candidate, ChoiceSection};
 pub use comparison::{ComparisonReport, MethodSummary, MovementReport, SettingReport};
+pub use compliance_report::{ComplianceReport, ComplianceState, HumanReport, Window};
+pub use contact_report::{ClearanceReport, CollisionReport};
+pub use criterion_report::{AnswerStatus, CriterionReport};
 pub use data_section::{ColumnRow, DataSection, DemonstrationRow};
 pub use error_section::{ErrorRow, ValidationRow, ValidationSection};
 pub use github::github;
@@ -51,10 +57,7 @@ pub use output_file::{Replaceable, prepare_file, replace_file, rewrite_file};
 pub use recorded_report::{Change, RecordedReport};
 pub use robot_section::{JointLine, RobotSection};
 pub use run_folder::{OutputError, RunFolder, write_file};
-pub use run_report::{
-    AnswerStatus, ClearanceReport, CollisionReport, ComplianceReport, ComplianceState, CriterionReport, HumanReport, LearningSection,
-    PhaseReport, RunReport, Window,
-};
+pub use run_report::{LearningSection, ParameterReport, PhaseReport, RunReport};
 pub use run_section::{CriterionLine, FileLine, RunSection};
 pub use schemas::{check_schema, learn_schema, manifest_schema, report_schema, written_schema};
 pub use skill_section::{FitSection, ParameterRange, SkillSection, StateRow};

@@ -1,11 +1,9 @@
 //! `report.json`: everything a run has to say, as plain data.
 
-use std::borrow::Cow;
-
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::{BesideReport, ComparisonReport, Outcome};
+use super::{BesideReport, ClearanceReport, CollisionReport, ComparisonReport, ComplianceReport, CriterionReport, HumanReport, Outcome};
 use super::{planar, sections};
 use crate::check::{Criterion, Place};
 use crate::planar::PlanarOutcome;
@@ -72,142 +70,6 @@ pub struct ParameterReport {
     pub value: f64,
 }
 
-/// One question and its answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CriterionReport {
-    /// Its name.
-    pub name: String,
-    /// Whether the outcome of the run depends on it.
-    pub required: bool,
-    /// The answer that the scenario expects: `pass`, `fail` or `report`.
-    pub expect: Cow<'static, str>,
-    /// Whether the criterion holds.
-    pub passed: bool,
-    /// Whether that is what the scenario expects.
-    pub as_expected: bool,
-    /// The measured value; `null` when the event it is about never happened.
-    pub value: Option<f64>,
-    /// The limit it is held against.
-    pub limit: Option<f64>,
-    /// Unit of value, limit and margin.
-    pub unit: Cow<'static, str>,
-    /// How far the value is on the right side of the limit.
-    pub margin: Option<f64>,
-    /// When it first failed (s).
-    pub first_failed_time_s: Option<f64>,
-    /// Where it was typed; `null` for one from the command line.
-    pub place: Option<Place>,
-    /// Whose answer it is.
-    #[serde(default)]
-    pub status: AnswerStatus,
-    /// Why it was not judged; `null` when there is an answer.
-    #[serde(default)]
-    pub not_judged_because: Option<String>,
-}
-
-/// Whose answer the answer to a question is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum AnswerStatus {
-    /// It was judged for this report.
-    #[default]
-    Judged,
-    /// A stored run gave it when it ran.
-    Recorded,
-    /// There is none. Nothing depends on it, unless a change of a stored run took it away: then a required one is not as expected.
-    NotJudged,
-}
-
-/// All contacts of one pair.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct CollisionReport {
-    /// A part of the robot, or an object.
-    pub a: String,
-    /// The other one.
-    pub b: String,
-    /// Whether the scene allows it.
-    pub allowed: bool,
-    /// First time (s).
-    pub first_time_s: f64,
-    /// Last time (s).
-    pub last_time_s: f64,
-    /// Deepest penetration (m).
-    pub max_depth_m: f64,
-    /// When it was deepest (s).
-    pub deepest_time_s: f64,
-    /// Where: the middle of the two deepest points (m, world).
-    pub deepest_point_m: [f64; 3],
-    /// Largest normal force (N); `null` when it was not measured: nothing was simulated, or the touch began and ended within a step.
-    pub max_force_n: Option<f64>,
-    /// Why the contact is allowed; `null` when it is not.
-    pub reason: Option<&'static str>,
-    /// The key of the scenario that allows it (`object.toy`, `allowed_contact.leaning`).
-    pub reason_key: Option<String>,
-    /// Where that was typed.
-    pub reason_place: Option<Place>,
-}
-
-/// The smallest distance to one object.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct ClearanceReport {
-    /// The nearest part of the robot, or what it holds.
-    pub a: String,
-    /// The object.
-    pub b: String,
-    /// The distance (m).
-    pub min_distance_m: Option<f64>,
-    /// When (s).
-    pub time_s: f64,
-    /// Nearest point on `a` (m, world).
-    pub point_a_m: [f64; 3],
-    /// Nearest point on `b` (m, world).
-    pub point_b_m: [f64; 3],
-}
-
-/// Where the skill complies, and why.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct ComplianceReport {
-    /// The statistic that decides.
-    pub statistic: &'static str,
-    /// What it must exceed (m²); `null` when no threshold separates the states.
-    pub threshold_m2: Option<f64>,
-    /// Every state.
-    pub states: Vec<ComplianceState>,
-    /// When the skill complied during the execution.
-    pub windows: Vec<Window>,
-}
-
-/// One state of the skill.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct ComplianceState {
-    /// Its number.
-    pub index: usize,
-    /// Its value of the statistic (m²).
-    pub value_m2: Option<f64>,
-    /// Its beta: 0 stiff, -1 complies.
-    pub beta: f64,
-}
-
-/// A stretch of time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Window {
-    /// Start (s).
-    pub start_s: f64,
-    /// End (s).
-    pub end_s: f64,
-}
-
-/// What the person did while the skill was executed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct HumanReport {
-    /// Largest force (N).
-    pub peak_force_n: f64,
-    /// Work done on the arm (J).
-    pub work_j: f64,
-    /// Time with the hand on the arm (s).
-    pub contact_s: f64,
-}
-
 /// How learning went.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LearningSection {
@@ -232,13 +94,6 @@ pub struct PhaseReport {
     pub steps: u64,
     /// Wall time (s).
     pub wall_s: f64,
-}
-
-impl CriterionReport {
-    /// Whether it speaks against the run.
-    pub fn fails(&self) -> bool {
-        self.required && !self.as_expected
-    }
 }
 
 impl RunReport {

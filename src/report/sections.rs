@@ -1,6 +1,6 @@
 //! The sections of a report, each from what the rooms below say.
 
-use super::run_report::{
+use super::{
     AnswerStatus, ClearanceReport, CollisionReport, ComplianceReport, ComplianceState, CriterionReport, HumanReport, LearningSection,
     PhaseReport, Window,
 };

@@ -1,11 +1,7 @@
 //! The report for people: what was asked, what came of it, what touched, what it took.
 
-use super::Outcome;
-use super::beside_section;
-use super::comparison;
-use super::run_report::{CriterionReport, RunReport};
 use super::table::figure;
-use super::{ClearanceReport, verdict};
+use super::{ClearanceReport, CriterionReport, Outcome, RunReport, beside_section, comparison, verdict};
 
 pub(super) const GREEN: &str = "\u{1b}[32m";
 pub(super) const RED: &str = "\u{1b}[31m";

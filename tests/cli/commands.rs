@@ -128,9 +128,11 @@ fn a_reader_who_leaves_is_no_failure() {
 #[cfg(target_os = "linux")]
 #[test]
 fn results_that_cannot_be_written_end_with_20() {
-    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
-    let status = std::process::Command::new(env!("CARGO_BIN_EXE_cpdmp")).arg("explain").stdout(full).status().expect("it starts");
-    assert_eq!(status.code(), Some(20));
+    for argument in ["explain", "--help", "--version"] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+        let status = std::process::Command::new(env!("CARGO_BIN_EXE_cpdmp")).arg(argument).stdout(full).status().expect("it starts");
+        assert_eq!(status.code(), Some(20), "{argument}");
+    }
 }
 
 #[test]
