@@ -371,7 +371,13 @@ mod tests {
         let typed = load(&format!("{BARE}{rich}{}", criteria.collect::<String>()));
         let again = load(&typed.resolved);
         assert_eq!(again.resolved, typed.resolved);
-        assert_eq!(format!("{:?}", again.work), format!("{:?}", typed.work));
+        // All but where its words stand in the file.
+        let meant = |scenario: &Scenario| {
+            let Work::Arm(mut experiment) = scenario.work.clone() else { panic!("it has an arm") };
+            experiment.named_parts.iter_mut().for_each(|part| part.place.clear());
+            format!("{experiment:?}")
+        };
+        assert_eq!(meant(&again), meant(&typed));
         assert_eq!(again.criteria, typed.criteria);
         assert_eq!(again.allowed_contacts, typed.allowed_contacts);
         assert_eq!(typed.allowed_contacts.len(), 1);
