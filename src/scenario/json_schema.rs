@@ -103,7 +103,7 @@ impl Writer {
             Kind::List(shape) => json!({ "type": "array", "items": self.table(shape) }),
             Kind::Numbers => json!({ "type": "object", "additionalProperties": { "type": "number" } }),
             Kind::Grid => json!({ "type": "object", "additionalProperties": { "type": "array", "items": { "type": "number" } } }),
-            Kind::Values => json!({ "type": "array" }),
+            Kind::Values => json!({ "type": "array", "minItems": 1 }),
             // A dotted key without quotes is a table in a table.
             Kind::Ranges => {
                 let pair = list(number(&Measure::ANY), Length::Exactly(2));

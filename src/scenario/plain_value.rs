@@ -47,19 +47,27 @@ impl Conform<'_> {
             }
             (Kind::Numbers, Value::Table(entries)) => Value::Table(entries.iter().map(|entry| self.free_number(entry, path)).collect()),
             (Kind::Grid, Value::Table(entries)) => Value::Table(entries.iter().map(|entry| self.free_numbers(entry, path)).collect()),
-            (Kind::Values, Value::List(_)) => typed.value,
+            (Kind::Values, Value::List(items)) => {
+                self.not_empty(items.len(), &typed, kind, path);
+                typed.value
+            }
             (Kind::Ranges, Value::Table(entries)) => {
                 let ranges = self.ranges(entries, "", path);
-                if ranges.is_empty() {
-                    let fault = Fault::at(Code::WrongLength, typed.origin, format!("`{path}` has no entries"));
-                    self.faults.push(fault.expected(kind.describe()));
-                }
+                self.not_empty(ranges.len(), &typed, kind, path);
                 Value::Table(ranges)
             }
             _ => {
                 self.wrong_type(path, &typed, kind.describe());
                 Value::Missing
             }
+        }
+    }
+
+    /// What varies in nothing varies nothing.
+    fn not_empty(&mut self, found: usize, typed: &Node, kind: &Kind, path: &str) {
+        if found == 0 {
+            let fault = Fault::at(Code::WrongLength, typed.origin, format!("`{path}` has no entries"));
+            self.faults.push(fault.expected(kind.describe()));
         }
     }
 

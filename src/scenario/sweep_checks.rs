@@ -11,7 +11,7 @@ use super::sweep_axis::Axis;
 use super::tree::Node;
 
 /// Most members that are looked at without being asked for.
-const LOOKED_AT: usize = 1000;
+const LOOKED_AT: usize = 200;
 
 impl Sweep {
     /// What keeps members from being run as far as their scenarios' text says it: the values of every direction, each with the first values of the

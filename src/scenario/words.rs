@@ -33,7 +33,7 @@ impl Kind {
             Self::List(_) => "a list of tables".to_owned(),
             Self::Numbers => "a table of names, each with a number".to_owned(),
             Self::Grid => "a table of parameter names, each with a list of numbers".to_owned(),
-            Self::Values => "a list of values".to_owned(),
+            Self::Values => "a list of one value or more".to_owned(),
             Self::Ranges => "a table of keys, each with [min, max]".to_owned(),
         }
     }

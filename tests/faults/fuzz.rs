@@ -172,11 +172,28 @@ fn file(folder: &Path, name: &str, bytes: &[u8]) -> PathBuf {
     path
 }
 
+/// What a scenario may say of its sweep.
+const SWEPT: &str = r#"
+[[sweep]]
+kind = "grid"
+key = "parameters.block_height_m"
+values = [0.18, 0.2]
+
+[[sweep]]
+kind = "latin_hypercube"
+count = 3
+ranges = { "object.toy.mass_kg" = [0.04, 0.06], "object.toy.friction" = [0.5, 0.8] }
+
+[[sweep]]
+kind = "repeat"
+count = 2
+"#;
+
 #[test]
 fn scenarios() {
     let folder = tempfile::tempdir().expect("a folder");
-    feed(GOOD.as_bytes(), |bytes| {
-        let loaded = Scenario::load(&file(folder.path(), "a.toml", bytes), &LoadOptions::default());
+    feed(format!("{GOOD}{SWEPT}").as_bytes(), |bytes| {
+        let loaded = Scenario::load_with_sweep(&file(folder.path(), "a.toml", bytes), &LoadOptions::default());
         if let Err(invalid) = &loaded {
             assert!(!invalid.0.is_empty(), "a refusal has a reason");
             assert!(!cpdmp::scenario::render(&invalid.0, true, true, 100).is_empty());
