@@ -62,6 +62,7 @@ fn simulated(path: &Path, options: &LoadOptions, global: &Global, terminal: &Ter
         Ok(scenario) => {
             terminal.faults(&scenario.warnings);
             let mut run = judged_run(&scenario, &clock);
+            run.report.warnings().for_each(|warning| terminal.note(&format!("{name}: warning: {warning}\n")));
             if global.deny_warnings {
                 run.report.deny_warnings();
             }

@@ -27,6 +27,7 @@ struct Taught<'a> {
     demonstrations: usize,
     motion: &'a [String],
     wrench: &'a [String],
+    warnings: Vec<String>,
 }
 
 /// Teaches and replays all lessons of a scenario, and writes them to the new folder that `--out` names.
@@ -52,8 +53,9 @@ fn taught(arguments: &Teach, global: &Global, terminal: &Terminal) -> Result<Out
         return Err(Failure::new(Outcome::InvalidInput, [message]));
     }
     let progress = Shown::new(terminal, global.timeout);
-    let dataset = lessons(&experiment, &progress).map_err(|error| Failure::new(outcome_of(&error), [error.to_string()]))?;
+    let (dataset, warnings) = lessons(&experiment, &progress).map_err(|error| Failure::new(outcome_of(&error), [error.to_string()]))?;
     drop(progress);
+    warnings.iter().for_each(|warning| terminal.note(&format!("warning: {warning}\n")));
     dataset.write(&out).map_err(|error| Failure::new(Outcome::OutputFailed, [error.to_string()]))?;
     let demonstrations = dataset.demonstrations.len();
     let outcome = Outcome::Passed;
@@ -69,6 +71,7 @@ fn taught(arguments: &Teach, global: &Global, terminal: &Terminal) -> Result<Out
             demonstrations,
             motion: &dataset.motion,
             wrench: &dataset.wrench,
+            warnings,
         }),
     }
     Ok(outcome)
@@ -86,8 +89,10 @@ fn free_folder(out: Option<&Path>) -> Result<PathBuf, Failure> {
     Err(Failure::new(Outcome::OutputFailed, [format!("{} is there already: name a new folder", out.display())]))
 }
 
-fn lessons(experiment: &Experiment, progress: &Shown) -> Result<Dataset, SimulationError> {
+/// The lessons, and what is odd about them.
+fn lessons(experiment: &Experiment, progress: &Shown) -> Result<(Dataset, Vec<String>), SimulationError> {
     let setup = Setup::new(experiment)?;
     setup.preflight(progress)?;
-    Ok(demonstrate(&setup, progress)?.0)
+    let (dataset, history) = demonstrate(&setup, progress)?;
+    Ok((dataset, history.warnings()))
 }

@@ -97,6 +97,12 @@ pub struct PhaseReport {
 }
 
 impl RunReport {
+    /// What looks odd about the run and what it learned.
+    pub fn warnings(&self) -> impl Iterator<Item = &str> {
+        let learned = self.learning.iter().flat_map(|learning| &learning.warnings);
+        self.warnings.iter().chain(learned).map(String::as_str)
+    }
+
     /// The report of a run that came to its end.
     pub fn finished(experiment: &Experiment, outcome: &RunOutcome, criteria: &[Criterion]) -> Self {
         let as_expected = criteria.iter().all(Criterion::as_expected);
@@ -186,8 +192,7 @@ impl RunReport {
 
     /// Makes a run that warns of something one that is not as expected.
     pub fn deny_warnings(&mut self) {
-        let learned = self.learning.iter().flat_map(|learning| &learning.warnings);
-        let warnings: Vec<&str> = self.warnings.iter().chain(learned).map(String::as_str).collect();
+        let warnings: Vec<&str> = self.warnings().collect();
         if let [first, others @ ..] = &warnings[..] {
             let more = if others.is_empty() { String::new() } else { format!(" (and {} more)", others.len()) };
             let denied = format!("--deny-warnings: {first}{more}");

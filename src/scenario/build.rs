@@ -61,6 +61,7 @@ fn robot(table: &Node) -> RobotSettings {
         idle_tool_link: table.text("idle_tool_link").to_owned(),
         rest_posture_rad: table.numbers("rest_posture_rad"),
         idle_posture_rad: table.numbers("idle_posture_rad"),
+        finger_friction: table.number("finger_friction"),
         impedance: ImpedanceSettings {
             stiffness_nm_per_rad: impedance.numbers("stiffness_nm_per_rad"),
             damping_nms_per_rad: impedance.numbers("damping_nms_per_rad"),

@@ -28,6 +28,20 @@ pub(super) fn waypoints(teaching: &Node, faults: &mut Vec<Fault>) {
     }
 }
 
+/// A force is averaged over logged steps: a window shorter than one would silently be longer.
+pub(super) fn windows_of_means(scenario: &Node, faults: &mut Vec<Fault>) {
+    let Some(rate_hz) = scenario.get("simulation").and_then(|simulation| simulation.get("log_rate_hz")).and_then(Node::as_number) else {
+        return;
+    };
+    for node in list(scenario, "criterion").iter().filter_map(|criterion| criterion.get("mean_over_s")) {
+        if let Some(window_s) = node.as_number().filter(|window_s| *window_s > 0.0 && window_s * rate_hz < 1.0 - 1e-9) {
+            let message = format!("{} s are shorter than a logged step (`simulation.log_rate_hz` is {})", plain(window_s), plain(rate_hz));
+            let expected = format!("{} s or longer, or 0 for every step of the engine", plain(1.0 / rate_hz));
+            faults.push(Fault::at(Code::OutOfRange, node.origin, message).expected(expected));
+        }
+    }
+}
+
 /// Pushes follow each other.
 pub(super) fn pushes(scenario: &Node, faults: &mut Vec<Fault>) {
     let windows =

@@ -7,7 +7,7 @@ use super::check_learning::ends_of_no_baseline;
 use super::check_names::{names_beside, references, unique_names};
 use super::check_planar::planar;
 use super::check_taught::{grid, parameters_are_taught};
-use super::check_times::{pushes, waypoints};
+use super::check_times::{pushes, waypoints, windows_of_means};
 use super::fault::{Code, Fault};
 use super::measure::plain;
 use super::tree::Node;
@@ -41,6 +41,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     scenario.get("learning").into_iter().for_each(|learning| ends_of_no_baseline(learning, &mut faults));
     coupling(scenario, &mut faults);
     rates(scenario, &mut faults);
+    windows_of_means(scenario, &mut faults);
     pushes(scenario, &mut faults);
     faults
 }

@@ -53,6 +53,8 @@ const ROBOT: Shape = Shape::plain(&[
     Key::new("package_directories", Folders, "where package://NAME/ is looked up, besides the folders above the URDF file").or_empty(),
     Key::new("tool_link", Text, "the link that is the tool, at the grasp centre; its arm works").or(Preset::Text("left_gripper_tool")),
     Key::new("grasp_link", Text, "the link that a person takes hold of").or(Preset::Text("left_wrist")),
+    Key::new("finger_friction", Number(within("", 0.0, 5.0)), "coefficient of friction of the fingers: rubber pads 1, smooth caps less")
+        .or_number(1.0),
     Key::new("idle_tool_link", Text, "the link that is the other arm's tool").or(Preset::Text("right_hand")),
     Key::new(
         "rest_posture_rad",

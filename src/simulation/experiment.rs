@@ -111,6 +111,8 @@ pub struct RobotSettings {
     pub rest_posture_rad: Vec<f64>,
     /// The posture that the other arm holds (rad).
     pub idle_posture_rad: Vec<f64>,
+    /// Coefficient of friction of the fingers' pads; what two surfaces have in common is the mean of theirs.
+    pub finger_friction: f64,
     /// The joint impedance of both arms.
     pub impedance: ImpedanceSettings,
     /// What is wrong with joints and wrench estimate.

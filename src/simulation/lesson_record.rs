@@ -15,6 +15,8 @@ pub struct LessonRecord {
     pub name: String,
     /// The setting in which it was led.
     pub parameters: Parameters,
+    /// Which way-point it missed, in words, if it did.
+    pub astray: Option<String>,
     /// What was to be seen, [`LOOKS_HZ`] times a second.
     pub looks: Vec<LessonLook>,
 }

@@ -3,6 +3,7 @@
 //! Data flows one way: an [`Experiment`] goes in, a [`RunOutcome`] comes out, and everything told about a step is a [`StepRecord`].
 
 mod arm_motion;
+mod astray;
 mod beside;
 mod changed_scene;
 mod error;

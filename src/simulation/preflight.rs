@@ -32,14 +32,18 @@ impl Setup {
         }
     }
 
-    /// Reads the dataset in `folder` for the experiment, in the scene of the execution; returns what is outside what it shows.
+    /// Reads the dataset in `folder` for the experiment and looks whether its first demonstration begins well in its own setting; returns what is
+    /// outside what it shows.
     fn dataset_can_be_used(&self, folder: &Path) -> Result<Vec<String>, SimulationError> {
         let dataset = self.in_space(Dataset::read(folder)?)?;
         self.fits(&dataset)?;
         self.stands(&self.experiment.parameters)?;
-        if let Some(start) = dataset.demonstrations.first().and_then(|lesson| first_pose(&lesson.trajectory)) {
+        if let Some(lesson) = dataset.demonstrations.first()
+            && let Some(start) = first_pose(&lesson.trajectory)
+        {
             let posture = self.posture(&start, "the start of the demonstrations", RECORD_AGAIN)?;
-            let built = self.world(&self.experiment.parameters, &posture, false);
+            let own: Vec<(String, f64)> = lesson.theta_m.iter().chain(&lesson.theta_f).cloned().collect();
+            let built = self.world(&self.experiment.parameters.with(&own), &posture, false);
             starts_apart(built, "the start of the demonstrations")?;
         }
         Ok(self.undemonstrated(&dataset))

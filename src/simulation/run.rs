@@ -93,6 +93,7 @@ pub fn perform(
 fn planned(setup: &Setup, dataset: &Dataset, learned: &Learned, lessons: Vec<LessonRecord>) -> Result<RunOutcome, SimulationError> {
     let question = setup.experiment.question();
     let mut learning = learned.report.clone();
+    learning.warnings.extend(warnings(&lessons));
     learning.warnings.extend(extrapolation(setup, &learned.skill)?);
     Ok(RunOutcome {
         robot: setup.robot.clone(),
@@ -210,7 +211,13 @@ fn taught(setup: &Setup, plan: &TeachingPlan, progress: &dyn Progress, history: 
 
 /// What the lesson looked like, taken from it.
 fn seen(lesson: &mut Lesson) -> LessonRecord {
-    LessonRecord { name: lesson.name.clone(), parameters: lesson.parameters.clone(), looks: std::mem::take(&mut lesson.looks) }
+    let Lesson { name, parameters, astray, looks, .. } = lesson;
+    LessonRecord { name: name.clone(), parameters: parameters.clone(), astray: astray.clone(), looks: std::mem::take(looks) }
+}
+
+/// What is odd about lessons.
+fn warnings(lessons: &[LessonRecord]) -> impl Iterator<Item = String> {
+    lessons.iter().filter_map(|lesson| Some(format!("lesson `{}`: {}", lesson.name, lesson.astray.as_ref()?)))
 }
 
 /// What has been simulated so far: the phases, the hashes of all worlds in a fixed order, and what the lessons looked like.
@@ -223,6 +230,11 @@ pub struct History {
 }
 
 impl History {
+    /// What is odd about the lessons that were taught.
+    pub fn warnings(&self) -> Vec<String> {
+        warnings(&self.lessons).collect()
+    }
+
     fn close(&mut self, name: &str, steps: u64, started_s: f64, progress: &dyn Progress) {
         let wall_s = progress.elapsed_s() - started_s;
         progress.note(&format!("{name}: {wall_s:.1} s"));

@@ -188,6 +188,7 @@ impl Setup {
             idle_tool: (!settings.idle_posture_rad.is_empty()).then_some(settings.idle_tool_link.as_str()),
             idle_posture_rad: &settings.idle_posture_rad,
             dry_friction_nm: settings.sensor.dry_friction_nm,
+            finger_friction: settings.finger_friction,
             objects: &self.experiment.objects,
             parameters,
             watch,

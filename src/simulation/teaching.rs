@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::astray::astray;
 use super::guide_path::GuidePath;
 use super::person::Teacher;
 use super::reachable::MOVE;
@@ -35,6 +36,8 @@ pub(super) struct Lesson {
     pub state_hash: u64,
     /// What was kept of them.
     pub trace: StateTrace,
+    /// Which way-point it missed, in words, if it did.
+    pub astray: Option<String>,
     /// Engine steps.
     pub steps: u64,
 }
@@ -94,6 +97,7 @@ pub(super) fn teach(
     Ok(Lesson {
         number,
         name,
+        astray: astray(&path, &recorder.path),
         parameters: parameters.clone(),
         start_posture,
         path: recorder.path,

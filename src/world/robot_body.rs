@@ -9,9 +9,8 @@ use super::physics::Layer;
 use super::{WorldError, convert};
 use crate::robot::{JointKind, RobotModel, Shape};
 
-/// Friction of the links, and of the rubber pads of the fingers.
+/// Coefficient of friction of the links that are no fingers.
 const LINK_FRICTION: f64 = 0.5;
-const PAD_FRICTION: f64 = 1.0;
 
 /// Number of an arm's first links that overlap the torso by construction.
 const PROXIMAL_LINKS: usize = 2;
@@ -118,13 +117,14 @@ pub(super) struct RobotBody {
 }
 
 impl RobotBody {
-    /// Builds `model` with the working tree at `working_q` and the idle one at `idle_q`; its base frame is the world's frame.
+    /// Builds `model` with the working tree at `working_q` and the idle one at `idle_q`; its base frame is the world's frame, and
+    /// `finger_friction` the coefficient of friction of its fingers.
     pub(super) fn new(
         engine: &mut PhysicsWorld,
         model: &RobotModel,
         limbs: &Limbs,
-        working_q: &[f64],
-        idle_q: &[f64],
+        (working_q, idle_q): (&[f64], &[f64]),
+        finger_friction: f64,
         parts: &mut Parts,
     ) -> Result<Self, WorldError> {
         let base = Isometry3::identity();
@@ -140,11 +140,18 @@ impl RobotBody {
             .map(|i| bodies[i].unwrap_or_else(|| engine.insert_body(RigidBodyBuilder::fixed().pose(convert::pose(&poses[i])))))
             .collect();
         let robot = Self { working, idle, bodies };
-        robot.insert_colliders(engine, model, limbs, parts)?;
+        robot.insert_colliders(engine, model, limbs, finger_friction, parts)?;
         Ok(robot)
     }
 
-    fn insert_colliders(&self, engine: &mut PhysicsWorld, model: &RobotModel, limbs: &Limbs, parts: &mut Parts) -> Result<(), WorldError> {
+    fn insert_colliders(
+        &self,
+        engine: &mut PhysicsWorld,
+        model: &RobotModel,
+        limbs: &Limbs,
+        finger_friction: f64,
+        parts: &mut Parts,
+    ) -> Result<(), WorldError> {
         for (index, body) in model.bodies.iter().enumerate() {
             let depth_in = |tree: &[usize]| tree.iter().position(|&joint| model.joints[joint].child_body == index);
             let (working, idle) = (depth_in(&limbs.working), depth_in(&limbs.idle));
@@ -166,7 +173,7 @@ impl RobotBody {
                 let collider = ColliderBuilder::new(shape)
                     .position(convert::pose(&(geometry.body_from_geometry * turn)))
                     .mass_properties(MassProperties::new(Vector::ZERO, 0.0, Vector::ZERO))
-                    .friction(if finger { PAD_FRICTION } else { LINK_FRICTION })
+                    .friction(if finger { finger_friction } else { LINK_FRICTION })
                     .collision_groups(layer.groups())
                     .user_data(id as u128);
                 engine.insert_collider(collider, Some(self.bodies[index]));

@@ -34,6 +34,8 @@ pub struct WorldSettings<'a> {
     pub idle_posture_rad: &'a [f64],
     /// Dry friction of each joint of the working arm, besides the robot's own (N m).
     pub dry_friction_nm: f64,
+    /// Coefficient of friction of the working arm's fingers; what two surfaces have in common is the mean of theirs.
+    pub finger_friction: f64,
     /// The scene.
     pub objects: &'a [Object],
     /// The setting.
@@ -83,7 +85,7 @@ impl World {
         let working_q = starting_positions(model, &limbs.working, &limbs.arm, settings.posture_rad)?;
         let idle_q = starting_positions(model, &limbs.idle, &limbs.idle_arm, settings.idle_posture_rad)?;
         let finger_range = limbs.fingers.first().map(|&dof| &model.joints[limbs.working[dof]]).map(|joint| (joint.lower, joint.upper));
-        let mut robot = RobotBody::new(&mut engine, model, &limbs, &working_q, &idle_q, &mut parts)?;
+        let mut robot = RobotBody::new(&mut engine, model, &limbs, (&working_q, &idle_q), settings.finger_friction, &mut parts)?;
         for &dof in &limbs.arm {
             let own = model.joints[limbs.working[dof]].friction;
             robot.working.set_friction(&mut engine, dof, own + settings.dry_friction_nm);

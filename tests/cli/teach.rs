@@ -48,3 +48,16 @@ fn what_cannot_be_taught_is_refused() {
     }
     assert_eq!(folder.names(), ["a.toml", "full", "p.toml"]);
 }
+
+/// Contract: a lesson that did not go where the person meant to lead it is learned from, but not in silence.
+#[test]
+fn a_lesson_that_misses_its_way_point_is_told() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let weak = ["--set", "human.teaching_force_max_n=0.5"];
+    let said = folder.call(&[&["teach", "a.toml", "--out", "weak"], &weak[..]].concat());
+    assert!(said.code == Some(0) && said.stderr.contains("the tool passed way-point"), "{}", said.stderr);
+    let said = folder.call(&[&["check", "a.toml"], &weak[..]].concat());
+    assert!(said.stderr.contains("a.toml: warning: lesson `") && said.stderr.contains("mm away"), "{}", said.stderr);
+    let said = folder.call(&["teach", "a.toml", "--out", "strong"]);
+    assert!(said.code == Some(0) && !said.stderr.contains("warning"), "{}", said.stderr);
+}

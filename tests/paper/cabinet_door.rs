@@ -10,7 +10,7 @@ use cpdmp::check::{Criterion, judge};
 use cpdmp::demonstration::Dataset;
 use cpdmp::learning::{self, Learned};
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
-use cpdmp::simulation::{Experiment, History, RunOutcome, Setup, Silent, SimulationError, demonstrate, perform};
+use cpdmp::simulation::{DemonstrationSource, Experiment, History, RunOutcome, Setup, Silent, SimulationError, demonstrate, perform};
 use cpdmp::world::{Cabinet, Grip, ObjectKind, Parameters, door_turn, opening_rad};
 use nalgebra::{Isometry3, Vector2};
 
@@ -103,6 +103,20 @@ pub(super) fn cabinet(experiment: &Experiment) -> (&Cabinet, Vector2<f64>) {
     let object = experiment.objects.iter().find(|o| matches!(o.kind, ObjectKind::Cabinet(_))).expect("a cabinet");
     let ObjectKind::Cabinet(cabinet) = &object.kind else { panic!("no cabinet") };
     (cabinet, object.center(&experiment.parameters))
+}
+
+/// Contract: what was demonstrated elsewhere began there: it is not put into the scene of the execution, whose bars stand elsewhere.
+#[test]
+fn lessons_at_other_handles_can_be_learned_from() {
+    let folder = tempfile::tempdir().expect("a folder");
+    taught().0.write(folder.path()).expect("written");
+    for handle_y_m in BETWEEN_M {
+        let mut experiment = arm(&scenario_with("cabinet_door.toml", &[])).clone();
+        experiment.demonstrations = DemonstrationSource::Dataset(folder.path().to_path_buf());
+        experiment.parameters = experiment.parameters.with(&[("handle_y_m".into(), handle_y_m)]);
+        let setup = Setup::new(&experiment).expect("the robot loads");
+        setup.preflight(&Silent).unwrap_or_else(|error| panic!("at {handle_y_m} m: {error}"));
+    }
 }
 
 #[test]

@@ -167,6 +167,19 @@ fn the_coupling_corrects_the_force_at_weights_that_were_never_shown() {
     }
 }
 
+/// The result is that of the physics and not of its resolution: with four times the iterations and with half the step the error is the same.
+#[test]
+fn a_finer_simulation_tells_the_same() {
+    let error = |change: fn(&mut Experiment)| {
+        let mut experiment = pushing("push_object.toml", 2.5);
+        change(&mut experiment);
+        force_error(&experiment, &executed(&experiment, taught()))
+    };
+    let shipped = error(|_| {});
+    let finer = [error(|experiment| experiment.physics.solver_iterations = 4), error(|experiment| experiment.physics.step_s /= 2.0)];
+    assert!(finer.iter().all(|finer| (finer - shipped).abs() < 0.05), "{shipped} N as shipped, {finer:?} N when finer");
+}
+
 /// Row 9 of the design: with the other sign the coupling chases the error instead of lessening it.
 #[test]
 fn the_coupling_has_the_sign_that_lessens_the_error() {

@@ -50,6 +50,7 @@ fn a_pendulum_swings_with_the_period_of_its_inertia() {
         idle_tool: None,
         idle_posture_rad: &[],
         dry_friction_nm: 0.0,
+        finger_friction: 1.0,
         objects: &[],
         parameters: &Parameters::default(),
         watch: false,

@@ -51,6 +51,7 @@ fn moved(
         idle_tool: None,
         idle_posture_rad: &[],
         dry_friction_nm: 0.0,
+        finger_friction: 1.0,
         objects,
         parameters: &Parameters::default(),
         watch: false,

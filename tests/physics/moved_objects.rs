@@ -29,6 +29,7 @@ fn carried(
         idle_tool,
         idle_posture_rad: if idle_tool.is_some() { &IDLE_POSTURE } else { &[] },
         dry_friction_nm: 0.0,
+        finger_friction: 1.0,
         objects,
         parameters: &Parameters::default(),
         watch: false,

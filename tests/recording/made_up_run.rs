@@ -96,6 +96,7 @@ fn lesson(bodies: usize, objects: usize) -> LessonRecord {
         }
     };
     LessonRecord {
+        astray: None,
         name: "made_up".into(),
         parameters: Parameters(vec![("block_height_m".into(), 0.2)]),
         looks: (0..10).map(look).collect(),

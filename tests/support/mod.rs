@@ -28,6 +28,7 @@ pub fn world(robot: &RobotModel, posture: &[f64], objects: &[Object], gravity: [
         idle_tool: Some("right_hand"),
         idle_posture_rad: &[0.6, -0.6, 0.0, 1.6, 0.0, 0.6, 0.0],
         dry_friction_nm,
+        finger_friction: 1.0,
         objects,
         parameters: &Parameters::default(),
         watch: false,
