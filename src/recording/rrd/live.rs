@@ -11,6 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use rerun::blueprint::components::PlayState;
+use rerun::sink::{FileSink, FileSinkOptions};
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
 use super::chapters::{APPLICATION, Chapters};
@@ -52,12 +53,17 @@ enum News {
 }
 
 impl LiveRecording {
-    /// Records into a file, which grows while the run goes on and has no footer before its end. That it cannot be written is no fault of
-    /// the run, and told by the recording that is written when it is over.
+    /// Records into a file, which grows while the run goes on. It has no footer: few need one, it would cost more than all that is recorded,
+    /// and [`close_recording`](crate::recording::close_recording) makes it. That the file cannot be written is no fault of the run, and told
+    /// by the recording that is written when it is over.
     #[must_use]
     pub fn to_file(path: &Path, experiment: &Experiment) -> Self {
         let path = path.to_owned();
-        Self::start(experiment, KEPT_TOGETHER, move |builder, _| Ok(builder.save(path)?))
+        Self::start(experiment, KEPT_TOGETHER, move |builder, _| {
+            let stream = builder.buffered()?;
+            stream.set_sink(Box::new(FileSink::with_options(path, FileSinkOptions { write_footer: false })?));
+            Ok(stream)
+        })
     }
 
     /// Records into the viewer that listens at `address`, as soon as it does. It is left alone when the run ends before.
