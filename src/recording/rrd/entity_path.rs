@@ -17,7 +17,7 @@ pub const SIM_TIME: Timeline = Timeline { name: "sim_time", meaning: "simulated 
 pub const STEP: Timeline = Timeline { name: "step", meaning: "number of the engine step since the start of the execution" };
 /// Phase.
 pub const PHASE: Timeline =
-    Timeline { name: "phase", meaning: "elapsed fraction u = -ln(s)/alpha of the skill's duration, in ten-thousandths" };
+    Timeline { name: "phase", meaning: "elapsed fraction u = -ln(s)/alpha of the skill's duration, 1 s being all of it" };
 
 /// Time of the teaching.
 pub const TEACHING_TIME: Timeline =
@@ -81,7 +81,7 @@ entities! {
     ACTIVE_STATE "world/active_state" "the same of the state that is active"
     ACTIVE_LABEL "world/active_state/label" "its number, and whether it complies"
     WRENCH_ARROW "world/forces/measured" "force of the environment on the tool as the controller estimates it"
-    EXPECTED_ARROW "world/forces/expected" "force that the force model expects"
+    EXPECTED_ARROW "world/forces/expected" "force that the force model expects, drawn a little to the right of the measured one"
     PERSON_ARROW "world/forces/person" "force of the person on the arm, as an arrow that starts at the arm's surface"
     TAUGHT_MOTION "plots/motion/{axis}/demonstrated/{demonstration}" "taught coordinate of the tool, its duration stretched to the skill's (m)"
     STATE_OUTLINES "plots/motion/{axis}/gaussians" "the same of all states as ellipses over time, along the planned coordinate: of each the upper and the lower half (m)"
@@ -129,7 +129,8 @@ entities! {
     REPLAY_FORCE "replay_plots/force/{axis}" "the same along an axis (N)"
     REPLAY_LANE "replay_lanes/demonstration" "which demonstration is replayed"
     EVENTS "events" "what happens, in words"
-    BESIDE_COLORS "legends/beside" "which colour is the run, and which what was executed beside it, with what that changes"
+    BESIDE_COLORS "legends/beside" "which colour is the run, and which what was executed beside it"
+    ERROR_COLORS "legends/beside_error" "the same of those that expect a force"
     FORCE_COLORS "legends/force" "which colour is which force"
     GUIDE "guide" "how to read this recording"
 }

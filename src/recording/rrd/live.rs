@@ -14,6 +14,7 @@ use rerun::blueprint::components::PlayState;
 use rerun::sink::{FileSink, FileSinkOptions};
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
+use super::axis_range::Ranges;
 use super::chapters::{APPLICATION, Chapters};
 use super::recorder::Fault;
 use super::workplace::Workplace;
@@ -136,7 +137,7 @@ impl LiveRecording {
 /// Records until the run is over, so many steps together.
 fn record(stream: RecordingStream, experiment: &Experiment, together: usize, news: &Receiver<News>) -> Result<(), Fault> {
     stream.send_recording_name(format!("{} (live)", name(experiment)))?;
-    let mut chapters = Chapters { stream, experiment, work: Workplace::default(), duration_s: 1.0, beside: &[] };
+    let mut chapters = Chapters { stream, ranges: Ranges::default(), experiment, work: Workplace::default(), duration_s: 1.0, beside: &[] };
     let mut planned: Option<Box<RunOutcome>> = None;
     let (mut opened, mut told, mut seen) = (false, 0, BTreeSet::new());
     for news in news {
