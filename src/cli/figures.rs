@@ -29,7 +29,7 @@ struct Drawn<'a> {
 
 /// Draws the figures of the run in `folder` into its `figures/`, or into `--out`.
 pub(super) fn figures(folder: &Path, global: &Global, terminal: &Terminal) -> Outcome {
-    let figures = match of_folder(folder, global) {
+    let figures = match of_folder(folder, global, terminal) {
         Ok(figures) => figures,
         Err(failure) => return failure.tell(terminal),
     };
@@ -46,7 +46,7 @@ pub(super) fn figures(folder: &Path, global: &Global, terminal: &Terminal) -> Ou
     Outcome::Passed
 }
 
-fn of_folder(folder: &Path, global: &Global) -> Result<Vec<Named>, Failure> {
+fn of_folder(folder: &Path, global: &Global, terminal: &Terminal) -> Result<Vec<Named>, Failure> {
     if !folder.join("manifest.json").is_file() {
         let message = format!("{} is not the folder of a run: it holds no manifest.json", folder.display());
         return Err(Failure::new(Outcome::InvalidInput, [message]));
@@ -55,17 +55,21 @@ fn of_folder(folder: &Path, global: &Global) -> Result<Vec<Named>, Failure> {
     let asked = LoadOptions { asset_roots: options(global).asset_roots, ..LoadOptions::default() };
     let scenario = Scenario::load(&folder.join("scenario.toml"), &asked)?;
     match &scenario.work {
-        Work::Arm(experiment) => stored_arm(folder, experiment, &scenario.beside),
+        Work::Arm(experiment) => stored_arm(folder, experiment, &scenario.beside, terminal),
         Work::Planar(run) => repeated_plane(folder, run),
     }
 }
 
-fn stored_arm(folder: &Path, experiment: &Experiment, beside: &[Variation]) -> Result<Vec<Named>, Failure> {
+fn stored_arm(folder: &Path, experiment: &Experiment, beside: &[Variation], terminal: &Terminal) -> Result<Vec<Named>, Failure> {
     let steps = read(&folder.join("steps.parquet"))?;
-    // What could not be executed beside the run left nothing.
     let places = beside.iter().map(|one| (one.name.as_str(), folder.join(BESIDE).join(format!("{}.parquet", one.name))));
+    let (there, missing): (Vec<_>, Vec<_>) = places.partition(|(_, place)| place.is_file());
+    // What could not be executed beside the run left nothing; what is lost is to be known.
+    for (name, place) in missing {
+        terminal.error(&format!("warning: {} is missing: the figures are drawn without `{name}`\n", place.display()));
+    }
     let others: Vec<(&str, Vec<StepRecord>)> =
-        places.filter(|(_, place)| place.is_file()).map(|(name, place)| Ok((name, read(&place)?))).collect::<Result<_, Failure>>()?;
+        there.into_iter().map(|(name, place)| Ok((name, read(&place)?))).collect::<Result<_, Failure>>()?;
     let path = folder.join("skill.json");
     let skill = read_skill(&path)?;
     let place = folder.join("demonstrations");

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::progress::Shown;
-use crate::recording::LiveRecording;
+use crate::recording::{LiveRecording, close_recording};
 use crate::robot::RobotModel;
 use crate::scenario::{Scenario, Work};
 use crate::simulation::{LessonRecord, Progress, RunOutcome, StepRecord};
@@ -49,8 +49,9 @@ pub(super) struct Grown(PathBuf);
 impl Grown {
     /// Makes it the recording of a run that has left no other; otherwise it has done its work.
     pub fn settle(self, left: bool) {
-        // Nothing is lost with a file that cannot be removed or renamed.
-        _ = if left { fs::remove_file(&self.0) } else { fs::rename(&self.0, self.0.with_file_name("recording.rrd")) };
+        let whole = self.0.with_file_name("recording.rrd");
+        // Nothing is lost with a file that cannot be removed or renamed, and one without its end can be looked at all the same.
+        _ = if left || close_recording(&self.0, &whole).is_ok() { fs::remove_file(&self.0) } else { fs::rename(&self.0, whole) };
     }
 }
 

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::arm_run::{ArmRun, kind_of};
+use super::canvas::{TEXT_PT, width_pt};
 use super::chart::{Axis, Chart, Figure};
 use super::mark::{Anchor, Mark};
 use crate::learning::cpdmp::{Statistic, spread_unit};
@@ -12,14 +13,19 @@ use crate::simulation::StepRecord;
 
 /// Width and height of a panel (pt).
 const PANEL_PT: [f64; 2] = [600.0, 170.0];
+/// About the part of it between the axes (pt).
+const PLOT_PT: [f64; 2] = [PANEL_PT[0] - 78.0, PANEL_PT[1] - 62.0];
+/// Space between the number of a state and what is drawn (pt).
+const GAP_PT: f64 = 2.5;
 
 /// The compliance profile of a run.
 #[must_use]
 pub fn arm_compliance(run: &ArmRun) -> Figure {
-    let mut panels = vec![switch(run), forces(run), displacement(run)];
+    let mut panels = vec![switch(run), forces(run)];
     if !run.states.is_empty() {
         panels.insert(0, spread(run));
     }
+    panels.extend(displacement(run));
     Figure { title: format!("Compliance: {}", run.name), panels, columns: 1, panel_size_pt: PANEL_PT }
 }
 
@@ -55,18 +61,45 @@ fn spread(run: &ArmRun) -> Chart {
     chart
 }
 
-/// Writes the number of every state above its bar.
+/// Writes the number of every state above its bar, clear of other bars and numbers and of the threshold.
 fn number_states(run: &ArmRun, chart: &mut Chart) {
-    let top = |mark: &Mark| mark.places().iter().map(|place| place[1]).fold(0.0, f64::max);
-    let highest = chart.marks.iter().map(top).fold(0.0, f64::max);
+    let drawn = chart.marks.iter().filter(|mark| !mark.places().is_empty());
+    let mut taken: Vec<Region> = drawn.map(|mark| region(mark.places())).collect();
+    let highest = taken.iter().map(|[_, [_, top]]| *top).fold(f64::MIN_POSITIVE, f64::max);
+    let end_s = run.steps.last().map_or(0.0, |step| step.time_s).max(run.duration_s);
+    // The axes are longer than what is drawn: by their margins, and by a number that stands on the highest bar.
+    let [s_per_pt, height_per_pt] = [1.1 * end_s / PLOT_PT[0], 1.3 * highest / PLOT_PT[1]];
     for state in &run.states {
-        let (Some([from, to]), Some(value_m2)) = (state.active, run.skill.compliance.values_m2.get(state.state)) else { continue };
-        let above = [0.5 * (from + to) * run.duration_s, millimetres(*value_m2) + 0.07 * highest];
-        chart.marks.push(Mark::words(BLACK, above, Anchor::Middle, &state.state.to_string()));
+        let (Some([from, to]), name) = (state.active, state.state.to_string()) else { continue };
+        let (middle, half_s) = (0.5 * (from + to) * run.duration_s, 0.5 * width_pt(&name, TEXT_PT) * s_per_pt);
+        let (across, height) = ([middle - half_s, middle + half_s], TEXT_PT * height_per_pt);
+        let foot = lowest_free(&taken, across, [height, GAP_PT * height_per_pt]);
+        taken.push([across, [foot, foot + height]]);
+        chart.marks.push(Mark::words(BLACK, [middle, foot + 0.5 * height], Anchor::Middle, &name));
     }
     if let Some([_, vertical]) = &mut chart.axes {
-        vertical.includes = vec![1.12 * highest];
+        vertical.includes = taken.iter().map(|[_, [_, top]]| *top).collect();
     }
+}
+
+/// Least and greatest coordinate on either axis.
+type Region = [[f64; 2]; 2];
+
+fn region(places: &[[f64; 2]]) -> Region {
+    [0, 1].map(|axis| {
+        let values = places.iter().map(|place| place[axis]);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+    })
+}
+
+/// The lowest place from zero upwards for something of a height that lies `across` an interval, with a gap to everything that is taken.
+fn lowest_free(taken: &[Region], across: [f64; 2], [height, gap]: [f64; 2]) -> f64 {
+    let mut foot = gap;
+    let beside = |[[left, right], _]: &&Region| *left < across[1] && *right > across[0];
+    while let Some([_, [_, top]]) = taken.iter().filter(beside).find(|[_, [low, top]]| *low < foot + height && top + gap > foot) {
+        foot = top + gap;
+    }
+    foot
 }
 
 /// The standard deviation (thousandths of a unit) of a variance (its square).
@@ -76,8 +109,8 @@ fn millimetres(value_m2: f64) -> f64 {
 
 fn switch(run: &ArmRun) -> Chart {
     let mut chart = panel(run, "Compliance of the active state, and how far the coupling is on", "beta, activation (-)");
-    chart.marks.push(Mark::line("beta", COMPLIES, 1.6, run.executed(|step| step.beta)));
-    chart.marks.push(Mark::line("activation", EXECUTED, 1.2, run.executed(|step| step.activation)));
+    chart.marks.push(Mark::line("beta", COMPLIES, 2.2, run.executed(|step| step.beta)));
+    chart.marks.push(Mark::line("activation of the coupling", BLACK, 0.8, run.executed(|step| step.activation)));
     if let Some([_, vertical]) = &mut chart.axes {
         vertical.includes = vec![-1.0, 1.0];
     }
@@ -91,14 +124,18 @@ fn forces(run: &ArmRun) -> Chart {
     if run.skill.force.is_some() {
         chart.marks.push(Mark::line("expected", EXPECTED, 1.6, run.executed(|step| step.expected_force.norm())));
     }
-    chart.marks.push(Mark::line("of the person", PERSON, 1.6, run.executed(|step| step.human.force.norm())));
+    if run.steps.iter().any(|step| step.human.force.norm() > 0.0) {
+        chart.marks.push(Mark::line("of the person", PERSON, 1.6, run.executed(|step| step.human.force.norm())));
+    }
     chart
 }
 
-fn displacement(run: &ArmRun) -> Chart {
+/// None where the coupling never asks for anything.
+fn displacement(run: &ArmRun) -> Option<Chart> {
+    run.steps.iter().find(|step| step.coupling_displacement.norm() > 0.0)?;
     let mut chart = panel(run, "How far forces move the tool from the plan", "displacement (mm)");
     let asked = run.executed(|step| step.coupling_displacement.norm() * 1e3);
     chart.marks.push(Mark::line("asked for by the coupling", PLANNED, 1.0, asked));
     chart.marks.push(Mark::line("reference, off the plan", EXECUTED, 1.6, run.executed(|step| step.deviation.norm() * 1e3)));
-    chart
+    Some(chart)
 }

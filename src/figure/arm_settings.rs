@@ -38,7 +38,7 @@ pub fn arm_settings(run: &ArmRun) -> Result<Option<Figure>, LearningError> {
             let of_setting = lessons.iter().zip(&sequences).filter(|(lesson, _)| lesson.theta_m == **theta);
             chart.marks.extend(of_setting.map(|(_, sequence)| Mark::line("", color.lighter(0.4), 0.6, demanded(sequence, j))));
             let outlines = run.states.iter().filter_map(|state| curve.outline(motion, state.state, j));
-            chart.marks.extend(outlines.map(|outline| Mark::area("", color, 0.12, outline)));
+            chart.marks.extend(outlines.map(|outline| Mark::faint_area("", color, outline)));
             chart.marks.push(Mark::line(&name_of(theta), color, 1.4, curve.along(j)));
         }
         chart.marks.push(Mark::dashes("the setting of the execution", BLACK, 1.4, asked.along(j)));

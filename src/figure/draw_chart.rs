@@ -15,7 +15,7 @@ use crate::palette::{BLACK, GREY};
 /// Height of the title (pt), if there is one.
 const TITLE_HEIGHT_PT: f64 = 20.0;
 /// Width of the vertical axis' numbers and label, and height of the horizontal one's (pt).
-const LABELS_PT: [f64; 2] = [46.0, 34.0];
+const LABELS_PT: [f64; 2] = [54.0, 34.0];
 /// Space at the left and at the right (pt), the latter for half of the last number.
 const SIDES_PT: [f64; 2] = [6.0, 14.0];
 /// Space above the title (pt), to the panel above.

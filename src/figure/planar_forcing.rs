@@ -7,21 +7,40 @@ use super::mark::Mark;
 use super::transitions::chain_name;
 use crate::math::covariance_outline;
 use crate::palette::{GREY, Rgb, VERMILION};
-use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian, chain_color};
+use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian, chain_color, named};
 
-/// Width and height of a panel (pt).
+/// Width and height of a panel (pt): of one for all situations, and of one of several.
 const PANEL_PT: [f64; 2] = [560.0, 230.0];
+const SMALL_PANEL_PT: [f64; 2] = [360.0, 180.0];
+/// The axes of the plane.
+const AXES: [(usize, &str); 2] = [(0, "x"), (1, "y")];
 /// Gaussians are drawn at this many standard deviations.
 const DEVIATIONS: f64 = 2.0;
 
 /// Two panels, x above y: what demonstrations ask for, and what `method` makes of it for taught situations and for new ones. Ellipses are the
-/// states at two standard deviations, for every situation that is drawn. Chains have a colour each.
+/// states at two standard deviations, for every situation that is drawn. Chains have a colour each. Where obstacles differ in width, each
+/// width has two panels of its own side by side.
 #[must_use]
 pub fn planar_forcing(title: &str, outcome: &PlanarOutcome, guidance: Guidance, method: Method) -> Figure {
     let (own, demonstrated): (Vec<&ForcingCurve>, Vec<&ForcingCurve>) =
         outcome.forcing_with(guidance).filter(|curve| curve.method.is_none_or(|of| of == method)).partition(|curve| curve.method.is_some());
-    let panels = ["x", "y"].iter().enumerate().map(|(axis, name)| panel(name, axis, method, &own, &demonstrated)).collect();
-    Figure { title: title.to_owned(), panels, columns: 1, panel_size_pt: PANEL_PT }
+    let both = |title: &str, own: &[&ForcingCurve], demonstrated: &[&ForcingCurve]| {
+        AXES.map(|(axis, name)| Chart { title: title.to_owned(), ..panel(name, axis, method, own, demonstrated) })
+    };
+    let mut widths: Vec<(f64, bool)> = own.iter().filter_map(|curve| Some((curve.half_width_m()?, curve.taught))).collect();
+    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
+    widths.dedup();
+    if widths.len() < 2 {
+        return Figure { title: title.to_owned(), panels: both("", &own, &demonstrated).into(), columns: 1, panel_size_pt: PANEL_PT };
+    }
+    let panels =
+        widths.iter().flat_map(|(width, taught)| both(&named(*width, *taught), &of_width(&own, *width), &of_width(&demonstrated, *width)));
+    Figure { title: title.to_owned(), panels: panels.collect(), columns: 2, panel_size_pt: SMALL_PANEL_PT }
+}
+
+/// The curves that were told this half width (m).
+fn of_width<'a>(curves: &[&'a ForcingCurve], half_width_m: f64) -> Vec<&'a ForcingCurve> {
+    curves.iter().copied().filter(|curve| curve.half_width_m() == Some(half_width_m)).collect()
 }
 
 /// Ellipses behind, what was demonstrated on them, and the model's lines on top: the dashes of new situations let taught ones be seen.

@@ -3,15 +3,16 @@
 use super::chart::{Axis, Chart, Figure};
 use super::mark::{Mark, Symbol};
 use crate::math::ellipse_outline;
-use crate::palette::{BLACK, GREY, VERMILION};
-use crate::planar::{Case, Ellipse, Guidance, Method, Movement, PlanarOutcome};
+use crate::palette::{BLACK, GREY, Rgb, VERMILION};
+use crate::planar::{Case, Guidance, Method, Movement, Obstacle, PlanarOutcome, obstacles};
 
 /// Width and height of a panel (pt).
 const PANEL_PT: [f64; 2] = [300.0, 320.0];
 /// Panels side by side, at most.
 const MOST_COLUMNS: usize = 3;
 
-/// One panel per method: demonstrations, obstacle, paths to taught situations (thin) and to new ones (thick), collisions marked.
+/// One panel per method: demonstrations, obstacle, paths to taught situations (thin) and to new ones (thick), collisions marked. Of several
+/// obstacles each has a colour, and so has what passes it.
 #[must_use]
 pub fn planar_paths(title: &str, outcome: &PlanarOutcome, guidance: Guidance) -> Figure {
     let cases: Vec<&Case> = outcome.cases_with(guidance).collect();
@@ -30,16 +31,20 @@ fn panel(method: Method, outcome: &PlanarOutcome, cases: &[&Case]) -> Chart {
             axes[axis].includes = vec![of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY)];
         }
     }
-    let mut obstacles: Vec<Ellipse> = Vec::new();
-    for case in cases {
-        if !obstacles.contains(&case.obstacle) {
-            obstacles.push(case.obstacle);
+    let obstacles = obstacles(cases.iter().copied());
+    // The widest first, or it would cover the others.
+    chart.marks.extend(obstacles.iter().rev().map(|obstacle| {
+        let outline = ellipse_outline(obstacle.ellipse.centre_m, obstacle.ellipse.half_axes_m);
+        match obstacle.color() {
+            Some(color) => Mark::area("", color, 0.12, outline),
+            None => Mark::area("obstacle", GREY, 0.35, outline),
         }
-    }
-    chart.marks.extend(obstacles.iter().map(|o| Mark::area("obstacle", GREY, 0.35, ellipse_outline(o.centre_m, o.half_axes_m))));
+    }));
     chart.marks.extend(outcome.demonstrations.iter().map(|shown| Mark::line("demonstrated", GREY, 0.6, shown.path_m.clone())));
     let movements = || cases.iter().flat_map(|case| case.of(method).map(move |movement| (*case, movement)));
-    chart.marks.extend(movements().map(|(case, movement)| path(case, movement)));
+    // The legend names the obstacles in their order, whichever is passed first.
+    chart.marks.extend(obstacles.iter().filter_map(|one| Some(drawn(&one.name(), one.color()?, one.taught, Vec::new()))));
+    chart.marks.extend(movements().map(|(case, movement)| path(case, movement, &obstacles)));
     chart.marks.extend(goals(cases));
     let hits: Vec<[f64; 2]> =
         movements().filter(|(_, movement)| movement.collides).filter_map(|(case, movement)| deepest(case, movement)).collect();
@@ -60,15 +65,19 @@ fn goals(cases: &[&Case]) -> Vec<Mark> {
     vec![Mark::symbols("taught goal", BLACK, Symbol::Ring, 3.0, of(true)), Mark::symbols("new goal", BLACK, Symbol::Square, 2.5, of(false))]
 }
 
-fn path(case: &Case, movement: &Movement) -> Mark {
-    let color = movement.method.color();
-    let (kind, width_pt) = if case.taught { ("taught", 0.9) } else { ("new", 2.0) };
-    let legend = format!("{}, {kind}", movement.method.title());
-    if case.taught {
-        Mark::dashes(&legend, color, width_pt, movement.path_m.clone())
-    } else {
-        Mark::line(&legend, color, width_pt, movement.path_m.clone())
-    }
+/// A path past one of several obstacles has that one's colour, and its method's otherwise.
+fn path(case: &Case, movement: &Movement, obstacles: &[Obstacle]) -> Mark {
+    let of_obstacle = obstacles.iter().find(|known| known.ellipse == case.obstacle).and_then(|one| Some((one.name(), one.color()?)));
+    let (legend, color) = of_obstacle.unwrap_or_else(|| {
+        let kind = if case.taught { "taught" } else { "new" };
+        (format!("{}, {kind}", movement.method.title()), movement.method.color())
+    });
+    drawn(&legend, color, case.taught, movement.path_m.clone())
+}
+
+/// The line of a taught situation, or of a new one.
+fn drawn(legend: &str, color: Rgb, taught: bool, points: Vec<[f64; 2]>) -> Mark {
+    if taught { Mark::dashes(legend, color, 0.9, points) } else { Mark::line(legend, color, 2.0, points) }
 }
 
 /// The point of a path that is deepest inside the obstacle.

@@ -1,6 +1,6 @@
 //! What the colours mean, in figures and recordings alike.
 
-use super::{BLACK, BLUE, BROWN, GREEN, GREY, MAGENTA, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, YELLOW};
+use super::{BLACK, BLUE, BROWN, GREEN, GREY, MAGENTA, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, VIOLET, YELLOW};
 
 /// What was taught.
 pub const TAUGHT: Rgb = GREY;
@@ -17,7 +17,7 @@ pub const STIFF: Rgb = GREEN;
 /// A state that complies.
 pub const COMPLIES: Rgb = PURPLE;
 /// A state that minimises the force error.
-pub const MINIMISES: Rgb = YELLOW;
+pub const MINIMISES: Rgb = VIOLET;
 /// A force as it is measured.
 pub const MEASURED: Rgb = BLUE;
 /// A force as it is expected.

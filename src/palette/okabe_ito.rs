@@ -1,5 +1,5 @@
 //! The colours of M. Okabe and K. Ito, "Color Universal Design" (2008), and a grey for what stands behind. Magenta and
-//! brown, for comparisons, are as bright as each other and darker than orange: they are seen on black and on white.
+//! brown, for comparisons, are as bright as each other and darker than orange: they and violet are seen on black and on white.
 
 use super::Rgb;
 
@@ -21,6 +21,8 @@ pub const VERMILION: Rgb = Rgb::new(213, 94, 0);
 pub const PURPLE: Rgb = Rgb::new(204, 121, 167);
 /// Magenta.
 pub const MAGENTA: Rgb = Rgb::new(221, 52, 151);
+/// Violet, between blue and reddish purple, darker than the one and bluer than the other.
+pub const VIOLET: Rgb = Rgb::new(126, 98, 226);
 /// Brown.
 pub const BROWN: Rgb = Rgb::new(160, 100, 50);
 /// Grey, for what stands behind the data.

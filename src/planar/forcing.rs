@@ -6,6 +6,9 @@ use super::{Guidance, Method};
 use crate::demonstration::{Dataset, Parameters};
 use crate::learning::{LearningError, LearningSettings, Skill, motion_sequences};
 
+/// The parameter that tells the obstacle's half width (m).
+pub(super) const HALF_WIDTH: &str = "half_width_m";
+
 /// One state's Gaussian over (phase input, forcing along x, forcing along y) at one `theta`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StateGaussian {
@@ -36,6 +39,14 @@ pub struct ForcingCurve {
     pub forcing_m: Vec<[f64; 2]>,
     /// The states at this `theta`; none for demonstrations and for methods without states.
     pub states: Vec<StateGaussian>,
+}
+
+impl ForcingCurve {
+    /// The half width of the obstacle that was told (m); none where the obstacle is always the same.
+    #[must_use]
+    pub fn half_width_m(&self) -> Option<f64> {
+        self.theta.iter().find(|(name, _)| name == HALF_WIDTH).map(|(_, value)| *value)
+    }
 }
 
 /// What the forcing terms of the demonstrations must have been (4), one curve per demonstration.

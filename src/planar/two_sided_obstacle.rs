@@ -5,6 +5,7 @@
 
 use nalgebra::DVector;
 
+use super::forcing::HALF_WIDTH;
 use super::reproduction::{SAMPLES, judged, model_report, path_of, shown};
 use super::rival::Rival;
 use super::two_sided_settings::TwoSidedObstacleSettings;
@@ -174,7 +175,7 @@ fn case(
 
 /// The parameters of a situation as a method is told them.
 pub(super) fn theta_of(method: Method, half_width: f64, side: Option<Side>) -> Parameters {
-    let mut theta = vec![("half_width_m".to_owned(), half_width)];
+    let mut theta = vec![(HALF_WIDTH.to_owned(), half_width)];
     if let Some(side) = side {
         theta.push(("side".to_owned(), side.sign()));
         if method == Method::CpdmpProduct {

@@ -19,7 +19,7 @@ mod table_file;
 pub use error::RecordingError;
 pub use path_log::{LoggedPath, PATH_COLUMNS, PATH_LOG_VERSION, write_path_log};
 #[cfg(feature = "rerun")]
-pub use rrd::{LiveRecording, entity_path, planar_entity, write_planar_recording, write_recording};
+pub use rrd::{LiveRecording, close_recording, entity_path, planar_entity, write_planar_recording, write_recording};
 pub use state_log::{STATE_COLUMNS, STATE_LOG_VERSION, read_state_log, write_state_log};
 pub use step_columns::{StepColumn, step_columns};
 pub use step_log::{STEP_LOG_VERSION, write_step_log};

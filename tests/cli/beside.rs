@@ -61,6 +61,13 @@ fn what_stands_beside_a_run_is_told_and_changes_nothing() {
     }
     assert!(String::from_utf8_lossy(&drawing(&place.join("figures"), "forces.svg")).contains("longer"));
 
+    // What is lost is said, and the rest is drawn.
+    fs::remove_file(place.join("beside/longer.parquet")).expect("removed");
+    let said = folder.call(&["figures", "run", "--out", "drawn", "-q"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert!(said.stderr.contains("beside/longer.parquet is missing"), "{}", said.stderr);
+    assert!(!said.stderr.contains("lwr.parquet"), "{}", said.stderr);
+
     let said = folder.call(&["check", "a.toml", "--format", "json"]);
     assert_eq!(said.code, Some(0), "{}", said.stderr);
     assert!(!said.stdout.contains("longer"), "{}", said.stdout);

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use rerun::external::re_log_encoding::DecoderApp;
+use rerun::external::re_log_encoding::{Decodable, DecoderApp, StreamFooter};
 
 use super::{Folder, GOOD};
 
@@ -47,14 +47,16 @@ fn a_run_that_is_killed_leaves_a_recording_that_opens() {
     assert!(!folder.path().join("runs/good-0/recording.partial.rrd").exists());
 }
 
-/// What was simulated before a run had to stop is to be seen.
+/// What was simulated before a run had to stop is to be seen, in a file with its footer.
 #[test]
 fn a_run_that_stops_early_leaves_what_it_has_recorded() {
     let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
     let said = folder.call(&["run", "a.toml", "--timeout", "0.01"]);
     assert_eq!(said.code, Some(12), "{}", said.stderr);
-    let file = fs::File::open(folder.path().join("runs/good-0/recording.rrd")).expect("it is there");
-    assert!(DecoderApp::decode_lazy(std::io::BufReader::new(file)).all(|message| message.is_ok()));
+    let recording = fs::read(folder.path().join("runs/good-0/recording.rrd")).expect("it is there");
+    assert!(DecoderApp::decode_lazy(&recording[..]).all(|message| message.is_ok()));
+    assert!(StreamFooter::from_rrd_bytes(&recording[recording.len() - StreamFooter::ENCODED_SIZE_BYTES..]).is_ok());
+    assert!(!folder.path().join("runs/good-0/recording.partial.rrd").exists());
 }
 
 /// Contract: where files may not grow as large as a recording, it is named, and everything else is there.

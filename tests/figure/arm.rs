@@ -93,6 +93,54 @@ fn bars_are_the_statistic_against_sigma() {
     assert!((sigma - compliance.threshold_m2.sqrt() * 1e3).abs() < 1e-9);
 }
 
+/// Contract: what did not happen takes no place: no line of a person who never helps, no displacement that is never asked for. Where forces
+/// move the arm is marked, whichever way they do.
+#[test]
+fn only_what_happened_is_drawn() {
+    let mut parts = Parts::of(outcome());
+    for step in &mut parts.outcome.steps {
+        step.human.force.fill(0.0);
+        step.coupling_displacement.fill(0.0);
+        step.beta = -step.beta;
+    }
+    let figure = arm_compliance(&parts.run());
+    assert!(figure.panels.iter().all(|panel| marks(panel, "of the person").is_empty() && !panel.title.contains("move the tool")));
+    let steps = &parts.outcome.steps;
+    let window = [steps[COMPLIES.start].time_s, steps[COMPLIES.end - 1].time_s];
+    for panel in &figure.panels {
+        let bands: Vec<&Shape> = marks(panel, "the arm minimises the force error").iter().map(|mark| &mark.shape).collect();
+        assert!(matches!(bands[..], [Shape::Band { stretch, .. }] if *stretch == window), "{bands:?}");
+        assert!(marks(panel, "the arm complies").is_empty());
+    }
+}
+
+/// Contract: the number of a state stands above its bar, and on no other number and not on the threshold.
+#[test]
+fn numbers_of_states_stand_clear() {
+    let mut parts = Parts::of(outcome());
+    let compliance = &mut parts.outcome.skill.compliance;
+    // The threshold lies where a number would stand.
+    let highest = compliance.values_m2.iter().copied().fold(0.0, f64::max).sqrt();
+    compliance.threshold_m2 = (1.06 * highest).powi(2);
+    let figure = arm_compliance(&parts.run());
+    let panel = &figure.panels[0];
+    let sigma = line(panel, "root of the threshold sigma")[0][1];
+    let words = |mark: &Mark| match &mark.shape {
+        Shape::Words { at, text, .. } => Some((*at, text.clone())),
+        _ => None,
+    };
+    let numbers: Vec<([f64; 2], String)> = panel.marks.iter().filter_map(words).collect();
+    assert!(numbers.len() > 2);
+    let half_height = 0.03 * sigma;
+    for (index, ([x, y], name)) in numbers.iter().enumerate() {
+        assert!((y - sigma).abs() > half_height, "{name} lies on the threshold");
+        let bars = panel.marks.iter().filter(|mark| matches!(mark.shape, Shape::Area { .. })).map(outline);
+        let below = bars.filter(|bar| bar[0][0] <= *x && *x <= bar[2][0]).map(|bar| bar[1][1]).fold(0.0, f64::max);
+        assert!(*y > below + half_height, "{name} lies in a bar");
+        assert!(numbers[..index].iter().all(|([other, above], _)| (other - x).abs() > 0.02 || (above - y).abs() > half_height));
+    }
+}
+
 /// Contract: a state is drawn as what it does about forces in this run, whatever it had learned to do.
 #[test]
 fn states_have_the_colour_of_what_the_coupling_lets_them_do() {

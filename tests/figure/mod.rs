@@ -4,4 +4,5 @@ mod arm;
 mod drawing;
 #[cfg(feature = "png")]
 mod picture;
+mod planar;
 mod transition_graph;

@@ -61,6 +61,21 @@ fn what_was_executed_beside_the_run_is_recorded_as_its_records_have_it() {
     }
 }
 
+/// Contract: the key of force errors names those that have one.
+#[test]
+fn the_key_of_force_errors_leaves_out_who_expects_no_force() {
+    let mut outcome = compared();
+    outcome.beside[0].outcome.skill.force = None;
+    let chunks = written(&outcome);
+    let text = rerun::TextDocument::descriptor_text().component;
+    let key = |entity: &Entity| -> String {
+        let of_entity = chunks.iter().filter(|chunk| *chunk.entity_path() == entity.path());
+        of_entity.flat_map(|chunk| chunk.iter_slices::<String>(text).map(|texts| texts[0].to_string()).collect::<Vec<_>>()).collect()
+    };
+    assert_eq!(key(&entity_path::BESIDE_COLORS), "orange: executed\n\nmagenta: uncoupled\n\nbrown: blind");
+    assert_eq!(key(&entity_path::ERROR_COLORS), "orange: executed\n\nbrown: blind");
+}
+
 /// Runs that are executed say more than the plan of a baseline.
 #[test]
 fn the_plan_of_the_baseline_gives_way_to_executed_runs() {

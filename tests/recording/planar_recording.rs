@@ -56,10 +56,10 @@ fn forcing_terms_and_states_are_those_of_the_outcome() {
     for (axis, name) in ["x", "y"].iter().enumerate() {
         let names = ["with_side", "cpdmp", name, &situation];
         let rows = scalars(&planar_entity::CURVE.of(&names));
-        let expected = curve.phase.iter().zip(&curve.forcing_m).map(|(input, f)| ((input * 1e4).round() as i64, vec![f[axis]]));
+        let expected = curve.phase.iter().zip(&curve.forcing_m).map(|(input, f)| ((input * 1e9).round() as i64, vec![f[axis]]));
         assert_eq!(rows, expected.collect::<Vec<_>>());
 
-        // Every point of an ellipse has the Mahalanobis distance 2: the definition, at times that are rounded to 1e-4 of the phase.
+        // Every point of an ellipse has the Mahalanobis distance 2: the definition, at times that are rounded to 1e-9 of the phase.
         let rows = scalars(&planar_entity::GAUSSIANS.of(&names));
         for (index, state) in curve.states.iter().enumerate() {
             let c = |a: usize, b: usize| state.covariance[if a == 0 { 0 } else { axis + 1 }][if b == 0 { 0 } else { axis + 1 }];
@@ -68,7 +68,7 @@ fn forcing_terms_and_states_are_those_of_the_outcome() {
             let (mut points, mut off) = (0, 0.0_f64);
             for (time, values) in &rows {
                 for value in &values[2 * index..2 * index + 2] {
-                    let away = Vector2::new(*time as f64 * 1e-4, *value) - mean;
+                    let away = Vector2::new(*time as f64 * 1e-9, *value) - mean;
                     let inside = away[0].abs() < 1.8 * c(0, 0).sqrt();
                     assert!(!inside || value.is_finite(), "state {index} at {time}");
                     if inside {
@@ -76,7 +76,7 @@ fn forcing_terms_and_states_are_those_of_the_outcome() {
                     }
                 }
             }
-            assert!(points > 20 && off < 0.02, "state {index} along {name}: {points} points, {off} off");
+            assert!(points > 20 && off < 1e-6, "state {index} along {name}: {points} points, {off} off");
         }
     }
 }

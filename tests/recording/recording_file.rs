@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use cpdmp::recording::entity_path::{self, TIMELINES};
 use cpdmp::recording::{RecordingError, write_recording};
-use cpdmp::simulation::RunOutcome;
+use cpdmp::simulation::{RunOutcome, skill_duration_s};
+use nalgebra::{Matrix2, Vector2};
 use rerun::external::re_log_types::LogMsg;
 use rerun::log::Chunk;
 use tempfile::TempDir;
@@ -74,6 +75,40 @@ fn events_tell_what_happened_in_order() {
     ];
     let timed = expected.map(|(step, text)| (nanoseconds(step), format!("{:.2} s: {text}", 0.05 * step as f64)));
     assert_eq!(found, timed);
+}
+
+/// Contract: all states of a plot are one entity, of each the upper and the lower half of its ellipse: at two standard deviations of the
+/// model's Gaussian, at times that are rounded to nanoseconds.
+#[test]
+fn outlines_over_the_phase_are_the_gaussians_of_the_model() {
+    let outcome = outcome();
+    let (_folder, path) = written(&outcome);
+    let (motion, scalars) = (&outcome.skill.motion, rerun::Scalars::descriptor_scalars());
+    let (phmm, experiment) = (motion.phmm().expect("states"), experiment());
+    let phi = motion.parameters.features.at(&outcome.skill.request(&experiment.question()).expect("answered").theta);
+    let duration_s = skill_duration_s(&outcome.steps).expect("it ends");
+    let chunks = chunks(&path);
+    for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+        let read = |chunk: &Chunk| chunk.iter_slices::<f64>(scalars.component).map(<[f64]>::to_vec).collect();
+        let found: Vec<(i64, Vec<f64>)> = rows(&chunks, &entity_path::FORCING_OUTLINES.of(&[name]), &scalars, read);
+        let mut on_each = vec![0; phmm.states()];
+        for (time_ns, values) in &found {
+            assert_eq!(values.len(), 2 * phmm.states());
+            for (state, halves) in values.chunks_exact(2).enumerate().filter(|(_, halves)| halves[0].is_finite()) {
+                let (mean, all) = (phmm.mean_at(state, &phi), &phmm.covariances[state]);
+                let covariance = Matrix2::new(all[(0, 0)], all[(0, axis + 1)], all[(axis + 1, 0)], all[(axis + 1, axis + 1)]);
+                let inverse = covariance.try_inverse().expect("regular");
+                let input = motion.phase_input.at(*time_ns as f64 * 1e-9 / duration_s, motion.alpha);
+                assert!(halves[0] >= halves[1]);
+                for value in halves {
+                    let away = Vector2::new(input, *value) - Vector2::new(mean[0], mean[axis + 1]);
+                    assert!(((away.transpose() * inverse * away)[0].sqrt() - 2.0).abs() < 1e-3, "state {state} along {name}");
+                }
+                on_each[state] += 1;
+            }
+        }
+        assert!(on_each.iter().all(|rows| *rows > 20), "{on_each:?}");
+    }
 }
 
 #[test]

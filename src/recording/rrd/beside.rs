@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use rerun::{Color, LineStrips3D, Scalars, TextDocument};
 
-use super::entity_path::{BESIDE_COLORS, BESIDE_ERROR, BESIDE_FORCE, BESIDE_MOTION, BESIDE_PATH};
+use super::entity_path::{BESIDE_COLORS, BESIDE_ERROR, BESIDE_FORCE, BESIDE_MOTION, BESIDE_PATH, ERROR_COLORS, Entity};
 use super::palette;
 use super::paths::{AXES, pieces, style};
 use super::recorder::{Fault, Recorder};
@@ -55,11 +55,22 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], skill: &Sk
     Ok(())
 }
 
-/// Logs which colour is which.
-pub(super) fn log_colors(recorder: &Recorder, beside: &[Beside]) -> Result<(), Fault> {
-    let others = beside.iter().enumerate().map(|(index, one)| format!("{}: {}", look(index).1, one.name));
-    let lines: Vec<String> = std::iter::once(format!("orange: {RUN}")).chain(others).collect();
-    recorder.always(BESIDE_COLORS.path(), &TextDocument::from_markdown(lines.join("\n\n")))
+/// Logs which colour is which: of all, and of those that expect a force; `expects` tells whether the run does.
+pub(super) fn log_colors(recorder: &Recorder, beside: &[Beside], expects: bool) -> Result<(), Fault> {
+    let log = |entity: &Entity, run: bool, shown: &dyn Fn(&Beside) -> bool| {
+        let run = run.then(|| format!("orange: {RUN}"));
+        let others = beside.iter().enumerate().filter(|(_, one)| shown(one));
+        let others = others.map(|(index, one)| format!("{}: {}", look(index).1, in_short_lines(&one.name)));
+        let lines: Vec<String> = run.into_iter().chain(others).collect();
+        recorder.always(entity.path(), &TextDocument::from_markdown(lines.join("\n\n")))
+    };
+    log(&BESIDE_COLORS, true, &|_| true)?;
+    log(&ERROR_COLORS, expects, &|one| one.outcome.skill.force.is_some())
+}
+
+/// A name that may be broken where its words end: a key is narrow.
+fn in_short_lines(name: &str) -> String {
+    name.replace('_', " ")
 }
 
 /// The same in the words of the guide, with what each changes.

@@ -57,10 +57,14 @@ impl Camera {
         Self { eye, target }
     }
 
+    /// What is at the right of the picture (world).
+    pub fn right(&self) -> Vector3<f64> {
+        (self.target - self.eye).cross(&Vector3::z()).normalize()
+    }
+
     /// A place for words beside the work (m, world), where they cover nothing.
     pub fn beside(&self) -> Vector3<f64> {
-        let sight = self.target - self.eye;
-        let right = sight.cross(&Vector3::z()).normalize();
+        let (sight, right) = (self.target - self.eye, self.right());
         self.target + sight.norm() * (right * BESIDE[0] + right.cross(&sight.normalize()) * BESIDE[1])
     }
 }

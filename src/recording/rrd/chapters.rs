@@ -3,6 +3,7 @@
 use rerun::blueprint::components::PlayState;
 use rerun::{RecordingStream, ViewCoordinates};
 
+use super::axis_range::Ranges;
 use super::camera::Camera;
 use super::entity_path::WORLD;
 use super::layout::Shown;
@@ -27,6 +28,8 @@ const TABLE_HEIGHT_M: f64 = 0.75;
 /// One recording.
 pub(super) struct Chapters<'a> {
     pub stream: RecordingStream,
+    /// What has been told, for the axes of plots.
+    pub ranges: Ranges,
     pub experiment: &'a Experiment,
     /// Where the tool does its work.
     pub work: Workplace,
@@ -37,7 +40,8 @@ pub(super) struct Chapters<'a> {
 }
 
 impl Chapters<'_> {
-    /// The layout that the recording opens with; with a page for the lessons when there are some.
+    /// The layout that the recording opens with; with a page for the lessons when there are some. Plots of what has been told before are
+    /// as high as that.
     pub fn layout(&self, robot: &RobotModel, taught: bool, play: PlayState) -> Result<(), Fault> {
         let Experiment { learning, execution, .. } = self.experiment;
         let shown = Shown {
@@ -50,7 +54,7 @@ impl Chapters<'_> {
             states: (learning.shaping != ShapingKind::Lwr).then(|| colors_of_states(&execution.coupling)),
             person: execution.help != Help::None,
         };
-        let (blueprint, properties) = layout::layout(&shown, play)?;
+        let (blueprint, properties) = layout::layout(&shown, &self.ranges, play)?;
         blueprint_property::send(&self.stream, APPLICATION, &blueprint, &properties)
     }
 
@@ -88,7 +92,7 @@ impl Chapters<'_> {
         scene_figure::log_objects(&recorder, self.experiment, records)?;
         paths::log_executed(&recorder, records)?;
         state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.camera().beside()))?;
-        force_figure::log_forces(&recorder, records, outcome.skill.force.is_some())?;
+        force_figure::log_forces(&recorder, records, outcome.skill.force.is_some(), &self.camera().right())?;
         lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
@@ -99,7 +103,7 @@ impl Chapters<'_> {
         contact_figure::log_contacts(&self.recorder(&[]), outcome)?;
         if !self.beside.is_empty() {
             beside::log_forces(&self.recorder(&outcome.steps), &outcome.steps, &outcome.skill, (beside::RUN, palette::EXECUTED))?;
-            beside::log_colors(&self.recorder(&[]), self.beside)?;
+            beside::log_colors(&self.recorder(&[]), self.beside, outcome.skill.force.is_some())?;
         }
         for (index, one) in self.beside.iter().enumerate() {
             beside::log_beside(&self.recorder(&one.outcome.steps), one, index)?;
@@ -113,7 +117,7 @@ impl Chapters<'_> {
     }
 
     fn recorder(&self, records: &[crate::simulation::StepRecord]) -> Recorder {
-        Recorder::new(self.stream.clone(), records, self.experiment.physics.step_s, self.duration_s)
+        Recorder::new((self.stream.clone(), self.ranges.clone()), records, self.experiment.physics.step_s, self.duration_s)
     }
 
     fn camera(&self) -> Camera {
@@ -134,9 +138,9 @@ impl Chapters<'_> {
 /// The colours that states can have in this mode of the coupling. Titles have no room for others.
 fn colors_of_states(coupling: &CouplingSettings) -> &'static str {
     match coupling.mode {
-        CouplingMode::MinimiseForceError => "; minimising force yellow",
+        CouplingMode::MinimiseForceError => "; minimising force violet",
         CouplingMode::Comply => "; stiff green, complying purple",
-        CouplingMode::PerState(_) => "; stiff green, complying purple, minimising force yellow",
+        CouplingMode::PerState(_) => "; stiff green, complying purple, minimising force violet",
     }
 }
 

@@ -17,7 +17,7 @@ pub const SIM_TIME: Timeline = Timeline { name: "sim_time", meaning: "simulated 
 pub const STEP: Timeline = Timeline { name: "step", meaning: "number of the engine step since the start of the execution" };
 /// Phase.
 pub const PHASE: Timeline =
-    Timeline { name: "phase", meaning: "elapsed fraction u = -ln(s)/alpha of the skill's duration, in ten-thousandths" };
+    Timeline { name: "phase", meaning: "elapsed fraction u = -ln(s)/alpha of the skill's duration, 1 s being all of it" };
 
 /// Time of the teaching.
 pub const TEACHING_TIME: Timeline =
@@ -81,11 +81,10 @@ entities! {
     ACTIVE_STATE "world/active_state" "the same of the state that is active"
     ACTIVE_LABEL "world/active_state/label" "its number, and whether it complies"
     WRENCH_ARROW "world/forces/measured" "force of the environment on the tool as the controller estimates it"
-    EXPECTED_ARROW "world/forces/expected" "force that the force model expects"
+    EXPECTED_ARROW "world/forces/expected" "force that the force model expects, drawn a little to the right of the measured one"
     PERSON_ARROW "world/forces/person" "force of the person on the arm, as an arrow that starts at the arm's surface"
     TAUGHT_MOTION "plots/motion/{axis}/demonstrated/{demonstration}" "taught coordinate of the tool, its duration stretched to the skill's (m)"
-    STATE_UPPER "plots/motion/{axis}/gaussians/{state}/upper" "upper half of the same as an ellipse over time, along the planned coordinate (m)"
-    STATE_LOWER "plots/motion/{axis}/gaussians/{state}/lower" "its lower half (m)"
+    STATE_OUTLINES "plots/motion/{axis}/gaussians" "the same of all states as ellipses over time, along the planned coordinate: of each the upper and the lower half (m)"
     PLANNED_MOTION "plots/motion/{axis}/planned" "coordinate of the tool that the skill generates (m)"
     BESIDE_MOTION "plots/motion/{axis}/run_beside/{run}" "coordinate of the tool of something that was executed beside the run (m)"
     EXECUTED_MOTION "plots/motion/{axis}/tool" "coordinate of the tool as executed (m)"
@@ -96,8 +95,7 @@ entities! {
     BESIDE_FORCE "plots/beside/force/{axis}/{run}" "measured force of the run (`executed`) and of everything beside it (N)"
     BESIDE_ERROR "plots/beside/force_error/{axis}/{run}" "measured less expected force of each (N)"
     TAUGHT_FORCING "plots/forcing/{axis}/demonstrated/{demonstration}" "what the forcing term of a demonstration must have been, eq. (4) (m)"
-    FORCING_UPPER "plots/forcing/{axis}/gaussians/{state}/upper" "upper half of a state's ellipse over the phase, at two standard deviations (m)"
-    FORCING_LOWER "plots/forcing/{axis}/gaussians/{state}/lower" "its lower half (m)"
+    FORCING_OUTLINES "plots/forcing/{axis}/gaussians" "all states as ellipses over the phase, at two standard deviations: of each the upper and the lower half (m)"
     FORCING "plots/forcing/{axis}/skill" "forcing term of the skill in this setting (m)"
     PERSON_FORCE "plots/person/force" "size of the person's force (N)"
     PERSON_POWER "plots/person/power" "power that the person puts into the arm: force times velocity of the point where it acts (W)"
@@ -131,7 +129,8 @@ entities! {
     REPLAY_FORCE "replay_plots/force/{axis}" "the same along an axis (N)"
     REPLAY_LANE "replay_lanes/demonstration" "which demonstration is replayed"
     EVENTS "events" "what happens, in words"
-    BESIDE_COLORS "legends/beside" "which colour is the run, and which what was executed beside it, with what that changes"
+    BESIDE_COLORS "legends/beside" "which colour is the run, and which what was executed beside it"
+    ERROR_COLORS "legends/beside_error" "the same of those that expect a force"
     FORCE_COLORS "legends/force" "which colour is which force"
     GUIDE "guide" "how to read this recording"
 }

@@ -30,14 +30,18 @@ const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLA
 const COLORS: &str = "blue: measured\n\nyellow: expected\n\npurple: unexpected\n\nvermilion: person";
 const COLORS_WITHOUT_MODEL: &str = "blue: measured\n\nvermilion: person";
 
-/// Logs all forces and what answers them; `expects` tells whether the skill knows what force to expect.
-pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], expects: bool) -> Result<(), Fault> {
+/// The arrow of the expected force starts so far to the right of the measured one (m): else the one that is right would hide the other.
+const ASIDE_M: f64 = 0.025;
+
+/// Logs all forces and what answers them, seen with `right` at the right; `expects` tells whether the skill knows what force to expect.
+pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], expects: bool, right: &Vector3<f64>) -> Result<(), Fault> {
+    let aside = right * ASIDE_M;
     let tool = |r: &StepRecord| Point3::from(r.tool.translation.vector);
     let measured = |r: &StepRecord| Vector3::from(r.wrench.fixed_rows::<3>(0));
     let arrows = Arrows { recorder, records };
     arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (tool(r), measured(r)))?;
     if expects {
-        arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r), r.expected_force))?;
+        arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r) + aside, r.expected_force))?;
     }
     arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point + to_surface(&r.human.force), r.human.force))?;
     let colors = if expects { COLORS } else { COLORS_WITHOUT_MODEL };

@@ -2,12 +2,12 @@
 
 use rerun::{EntityPath, Scalars};
 
-use super::entity_path::{FORCING, FORCING_LOWER, FORCING_UPPER, TAUGHT_FORCING};
-use super::lanes::{beta_color, beta_in_words};
+use super::entity_path::{FORCING, FORCING_OUTLINES, TAUGHT_FORCING};
+use super::outline_figure::{Outline, around, log_outlines};
 use super::palette;
 use super::paths::{AXES, COLUMNS, style};
 use super::recorder::{Fault, Recorder};
-use super::state_figure::{DEVIATIONS, POINTS};
+use super::state_figure::DEVIATIONS;
 use super::task_states::betas;
 use crate::learning::motion_sequences;
 use crate::simulation::{Experiment, RunOutcome};
@@ -33,14 +33,14 @@ pub(super) fn log_forcing(recorder: &Recorder, experiment: &Experiment, outcome:
             let points = rows.map(|row| (time_s(row[0]), row[column + 1])).unzip();
             log(TAUGHT_FORCING.of(&[name, &demonstration.name]), style("taught", palette::TAUGHT, 0.8), points)?;
         }
-        for ellipse in ellipses(experiment, outcome, column)? {
-            let look = || style(&format!("state, {}", beta_in_words(ellipse.beta)), beta_color(ellipse.beta), 1.0);
-            for (entity, sign) in [(FORCING_UPPER, 1.0), (FORCING_LOWER, -1.0)] {
-                let points = ellipse.half(sign).filter(|(input, _)| (0.0..=1.0).contains(input));
-                let points = points.map(|(input, value)| (time_s(input), value)).unzip();
-                log(entity.of(&[name, &ellipse.state.to_string()]), look(), points)?;
-            }
-        }
+        let input_at = |time_s: f64| motion.phase_input.at(time_s / duration_s, motion.alpha);
+        let outline = |ellipse: &Ellipse| {
+            let (ellipse, inputs) = (*ellipse, ellipse.inputs());
+            let times_s = inputs.filter(|input| (0.0..=1.0).contains(input)).map(time_s).collect();
+            Outline { beta: ellipse.beta, times_s, halves: Box::new(move |time_s| ellipse.halves(input_at(time_s))) }
+        };
+        let outlines: Vec<Outline<'_>> = ellipses(experiment, outcome, column)?.iter().map(outline).collect();
+        log_outlines(recorder, &FORCING_OUTLINES.of(&[name]), &outlines)?;
         log(FORCING.of(&[name]), style("skill", palette::PLANNED, 2.0), curve(experiment, outcome, column, duration_s)?)?;
     }
     Ok(())
@@ -60,8 +60,8 @@ fn curve(experiment: &Experiment, outcome: &RunOutcome, column: usize, duration_
 }
 
 /// A state over the phase input and one column of the forcing term.
+#[derive(Clone, Copy)]
 struct Ellipse {
-    state: usize,
     beta: f64,
     /// Mean, and covariance row by row.
     mean: [f64; 2],
@@ -77,7 +77,6 @@ fn ellipses(experiment: &Experiment, outcome: &RunOutcome, column: usize) -> Res
     let ellipse = |state: usize| {
         let (mean, all) = (phmm.mean_at(state, &phi), &phmm.covariances[state]);
         Ellipse {
-            state,
             beta: betas[state],
             mean: [mean[0], mean[row]],
             covariance: [[all[(0, 0)], all[(0, row)]], [all[(row, 0)], all[(row, row)]]],
@@ -87,15 +86,17 @@ fn ellipses(experiment: &Experiment, outcome: &RunOutcome, column: usize) -> Res
 }
 
 impl Ellipse {
-    /// One half as a curve over the phase input: `f = m_f + S_fp / S_pp (p - m_p) ± k sqrt((S_ff - S_fp^2 / S_pp) (1 - (p - m_p)^2 / (k^2 S_pp)))`.
-    fn half(&self, sign: f64) -> impl Iterator<Item = (f64, f64)> {
+    /// Phase inputs at equal angles around it.
+    fn inputs(&self) -> impl Iterator<Item = f64> + use<> {
+        around(self.mean[0], DEVIATIONS * self.covariance[0][0].max(0.0).sqrt())
+    }
+
+    /// Where it is cut at a phase input: `f = m_f + S_fp / S_pp (p - m_p) ± sqrt((S_ff - S_fp^2 / S_pp) (k^2 - (p - m_p)^2 / S_pp))`.
+    fn halves(&self, input: f64) -> [f64; 2] {
         let [[pp, pf], [fp, ff]] = self.covariance;
-        let (slope, rest) = (fp / pp, (ff - fp * pf / pp).max(0.0).sqrt());
-        let (mean, width) = (self.mean, DEVIATIONS * pp.max(0.0).sqrt());
-        (0..POINTS).map(move |i| {
-            let angle = std::f64::consts::PI * (1.0 - i as f64 / (POINTS - 1) as f64);
-            let along = width * angle.cos();
-            (mean[0] + along, mean[1] + slope * along + sign * DEVIATIONS * rest * angle.sin())
-        })
+        let away = input - self.mean[0];
+        let middle = self.mean[1] + fp / pp * away;
+        let half = (ff - fp * pf / pp).max(0.0).sqrt() * (DEVIATIONS * DEVIATIONS - away * away / pp).sqrt();
+        [middle + half, middle - half]
     }
 }

@@ -7,10 +7,11 @@ use rerun::blueprint::{
     View,
 };
 
+use super::axis_range::Ranges;
 use super::beside;
 use super::blueprint_property::Properties;
 use super::camera::Camera;
-use super::entity_path::{BESIDE_COLORS, BESIDE_PATH, EXECUTED_PATH, FORCE_COLORS, SIM_TIME, TEACHING_PATH};
+use super::entity_path::{BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EXECUTED_PATH, Entity, FORCE_COLORS, SIM_TIME, TEACHING_PATH};
 use super::paths::AXES;
 use super::recorder::Fault;
 use super::views::{Views, motion_title};
@@ -44,8 +45,8 @@ pub(super) struct Shown<'a> {
 }
 
 /// The layout with the properties of its views: one page for the execution, one for what came before it.
-pub(super) fn layout(shown: &Shown<'_>, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
-    let mut views = Views::default();
+pub(super) fn layout(shown: &Shown<'_>, ranges: &Ranges, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
+    let mut views = Views { ranges: ranges.clone(), ..Views::default() };
     let execution = execution(&mut views, shown)?.with_name("Execution");
     let teaching = teaching(&mut views, shown)?.with_name("Teaching (timeline teaching_time)");
     let replay = replay(&mut views)?.with_name("Replay (timeline replay_time)");
@@ -75,7 +76,7 @@ fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> 
     let mut shares = vec![1.0, 1.0, 1.25];
     if shown.states.is_some() {
         let title = "How far demonstrations disagree in the active state (orange), threshold sigma (purple); mm or mrad";
-        right.push(views.plot(title, "plots/spread")?.into());
+        right.push(views.low_plot(title, "plots/spread")?.into());
         shares.push(0.7);
     }
     right.push(StateTimelineView::new("Compliance, gripper, person, state").with_origin("/lanes").into());
@@ -106,14 +107,17 @@ fn more(views: &mut Views, [first, second, third]: [&str; 3], shown: &Shown<'_>)
     let force = Horizontal::new([forces.into(), colors.into()]).with_name("Force").with_column_shares(vec![4.6, 1.0]);
     let person = side_by_side("Person", &[("Force (N)", "plots/person/force"), ("Power (W)", "plots/person/power")])?;
     let forcing = [first, second].map(|axis| (format!("Forcing {axis} (m)"), format!("plots/forcing/{axis}")));
-    let forcing = side_by_side("Forcing term", &forcing.each_ref().map(|(title, origin)| (title.as_str(), origin.as_str())))?;
+    let forcing = side_by_side("Forcing", &forcing.each_ref().map(|(title, origin)| (title.as_str(), origin.as_str())))?;
     let coupling = side_by_side("Coupling", &[("Displacement (m): x orange, y green, z blue", "plots/coupling")])?;
     let gripper = side_by_side("Gripper", &[("0 closed, 1 open: commanded blue, measured orange", "plots/gripper")])?;
     let motion = side_by_side(
         &format!("Motion {third}"),
         &[(&motion_title(third, &beside::for_title(shown.beside)), &format!("plots/motion/{third}"))],
     )?;
-    let mut tabs = vec![force.into(), person.into(), forcing.into(), coupling.into(), gripper.into(), motion.into()];
+    let mut tabs: Vec<ContainerLike> = vec![force.into(), forcing.into(), coupling.into(), gripper.into(), motion.into()];
+    if shown.person {
+        tabs.insert(1, person.into());
+    }
     if !shown.beside.is_empty() {
         // The comparison is what such a scenario is about.
         tabs.splice(0..0, compared(views)?);
@@ -123,13 +127,13 @@ fn more(views: &mut Views, [first, second, third]: [&str; 3], shown: &Shown<'_>)
 
 /// Forces of the run and of everything beside it: how far they are from what was expected, and as they were measured.
 fn compared(views: &mut Views) -> Result<[ContainerLike; 2], Fault> {
-    let mut page = |name: &str, title: &str, origin: &str| -> Result<ContainerLike, Fault> {
+    let mut page = |name: &str, key: &Entity, origin: &str| -> Result<ContainerLike, Fault> {
         let plot = |axis: &&str| Ok(views.plot(&format!("{axis} (N)"), &format!("plots/beside/{origin}/{axis}"))?.into());
         let plots: Vec<ContainerLike> = AXES.iter().map(plot).collect::<Result<_, Fault>>()?;
-        let key = TextDocumentView::new(title).with_origin(BESIDE_COLORS.pattern);
+        let key = TextDocumentView::new("Key").with_origin(key.pattern);
         Ok(Horizontal::new([Horizontal::new(plots).into(), key.into()]).with_name(name).with_column_shares(vec![4.6, 1.0]).into())
     };
-    Ok([page("Force error compared", "Key", "force_error")?, page("Force compared", "Key", "force")?])
+    Ok([page("Force errors", &ERROR_COLORS, "force_error")?, page("Forces", &BESIDE_COLORS, "force")?])
 }
 
 /// The lessons: the scene at the left; motion, person and gripper at the right.

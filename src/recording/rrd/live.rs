@@ -11,8 +11,10 @@ use std::thread;
 use std::time::Duration;
 
 use rerun::blueprint::components::PlayState;
+use rerun::sink::{FileSink, FileSinkOptions};
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
+use super::axis_range::Ranges;
 use super::chapters::{APPLICATION, Chapters};
 use super::recorder::Fault;
 use super::workplace::Workplace;
@@ -52,12 +54,17 @@ enum News {
 }
 
 impl LiveRecording {
-    /// Records into a file, which grows while the run goes on and has no footer before its end. That it cannot be written is no fault of
-    /// the run, and told by the recording that is written when it is over.
+    /// Records into a file, which grows while the run goes on. It has no footer: few need one, it would cost more than all that is recorded,
+    /// and [`close_recording`](crate::recording::close_recording) makes it. That the file cannot be written is no fault of the run, and told
+    /// by the recording that is written when it is over.
     #[must_use]
     pub fn to_file(path: &Path, experiment: &Experiment) -> Self {
         let path = path.to_owned();
-        Self::start(experiment, KEPT_TOGETHER, move |builder, _| Ok(builder.save(path)?))
+        Self::start(experiment, KEPT_TOGETHER, move |builder, _| {
+            let stream = builder.buffered()?;
+            stream.set_sink(Box::new(FileSink::with_options(path, FileSinkOptions { write_footer: false })?));
+            Ok(stream)
+        })
     }
 
     /// Records into the viewer that listens at `address`, as soon as it does. It is left alone when the run ends before.
@@ -130,7 +137,7 @@ impl LiveRecording {
 /// Records until the run is over, so many steps together.
 fn record(stream: RecordingStream, experiment: &Experiment, together: usize, news: &Receiver<News>) -> Result<(), Fault> {
     stream.send_recording_name(format!("{} (live)", name(experiment)))?;
-    let mut chapters = Chapters { stream, experiment, work: Workplace::default(), duration_s: 1.0, beside: &[] };
+    let mut chapters = Chapters { stream, ranges: Ranges::default(), experiment, work: Workplace::default(), duration_s: 1.0, beside: &[] };
     let mut planned: Option<Box<RunOutcome>> = None;
     let (mut opened, mut told, mut seen) = (false, 0, BTreeSet::new());
     for news in news {

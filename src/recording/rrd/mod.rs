@@ -1,5 +1,6 @@
 //! The recording for the rerun viewer: the only place that knows rerun.
 
+mod axis_range;
 mod baseline;
 mod beside;
 mod blueprint_property;
@@ -9,12 +10,14 @@ mod contact_figure;
 mod convert;
 pub mod entity_path;
 mod events;
+mod footer;
 mod force_figure;
 mod forcing_figure;
 mod guide;
 mod lanes;
 mod layout;
 mod live;
+mod outline_figure;
 mod palette;
 mod paths;
 pub mod planar_entity;
@@ -37,6 +40,7 @@ mod views;
 mod workplace;
 mod write;
 
+pub use footer::close_recording;
 pub use live::LiveRecording;
 pub use planar_write::write_planar_recording;
 pub use write::write_recording;

@@ -5,17 +5,17 @@ use super::entity_path::{Entity, Timeline, entities};
 /// What the models see of the phase.
 pub const PHASE_INPUT: Timeline = Timeline {
     name: "phase_input",
-    meaning: "what the models see of the phase, in ten-thousandths: the elapsed fraction u of the movement, or s where settings say so",
+    meaning: "what the models see of the phase, 1 s being 1: the elapsed fraction u of the movement, or s where settings say so",
 };
 
 // What is drawn later, in the order of the paths, covers what was drawn before.
 entities! {
     MAP "map" "turns the plane up: y points up in the view, as in the data, and not down, as in pictures"
     GRID "map/grid" "lines at whole metres"
-    OBSTACLES "map/obstacles" "every obstacle that is passed"
+    OBSTACLES "map/obstacles" "every obstacle that is passed, of several each in a colour of its own"
     DEMONSTRATIONS "map/demonstrations" "paths of the demonstrations"
     GOALS "map/goals" "where movements should end: dark where it was taught, yellow where not"
-    TAUGHT "map/movements/{told}/{method}/taught" "paths of a method for situations that were demonstrated"
+    TAUGHT "map/movements/{told}/{method}/taught" "paths of a method for situations that were demonstrated, in the colour of the obstacle where there are several"
     UNSEEN "map/movements/{told}/{method}/unseen" "its paths for situations that were not"
     COLLISIONS "map/movements/{told}/{method}/collisions" "where a path that touches the obstacle is deepest inside"
     PLACES "map/movements/{told}/{method}/places" "where its movements are at this phase"

@@ -56,7 +56,7 @@ fn color(curve: &ForcingCurve, method: Method) -> Color {
 }
 
 /// A name for a curve among those of its method: `half_width_m = 1.5, chain 2`.
-fn situation(curve: &ForcingCurve) -> String {
+pub(super) fn situation(curve: &ForcingCurve) -> String {
     let mut parts: Vec<String> = curve.theta.iter().map(|(name, value)| format!("{name} = {value}")).collect();
     parts.extend(curve.chain.map(|chain| format!("chain {}", chain + 1)));
     parts.join(", ")

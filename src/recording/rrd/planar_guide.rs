@@ -5,17 +5,23 @@ use rerun::TextDocument;
 use super::planar_entity::{ENTITIES, GUIDE, PHASE_INPUT};
 use super::planar_recorder::PlanarRecorder;
 use super::recorder::Fault;
-use crate::planar::{Case, PlanarOutcome, Transitions};
+use crate::planar::{Case, PlanarOutcome, Transitions, obstacles};
 
 /// Logs the page.
 pub(super) fn log_guide(recorder: &PlanarRecorder, name: &str, seed: u64, outcome: &PlanarOutcome) -> Result<(), Fault> {
-    let mut page = format!("# {name}\n\nSeed {seed}; {} demonstrations.\n\n{READING}\n\n", outcome.demonstrations.len());
+    let mut page = format!("# {name}\n\nSeed {seed}; {} demonstrations.\n\n{}{READING}\n\n", outcome.demonstrations.len(), widths(outcome));
     page.push_str("## Clearances\n\n");
     page.extend(outcome.cases.iter().map(clearances));
     page.extend(outcome.transitions.iter().map(shares));
     page.push_str(&format!("\n## Timeline\n\n- `{}`: {}\n\n## Entities\n\n", PHASE_INPUT.name, PHASE_INPUT.meaning));
     page.extend(ENTITIES.iter().map(|entity| format!("- `{}`: {}\n", entity.pattern, entity.meaning)));
     recorder.always(GUIDE.path(), &TextDocument::from_markdown(page))
+}
+
+/// Which obstacle has which colour, where there are several.
+fn widths(outcome: &PlanarOutcome) -> String {
+    let named = obstacles(&outcome.cases).iter().filter_map(|one| Some(format!("{}: {}", one.look?.1, one.name()))).collect::<Vec<_>>();
+    if named.is_empty() { String::new() } else { format!("Obstacles and what passes them: {}.\n\n", named.join("; ")) }
 }
 
 /// What every method makes of a situation, in a line.
@@ -39,9 +45,9 @@ fn shares(transitions: &Transitions) -> String {
 }
 
 const READING: &str = "\
-A person showed movements past an elliptic obstacle (grey paths). Each method made its own movements from what it learned: thin lines for
-situations that were demonstrated, thick lines for others. A vermilion point is a collision, at the deepest point. Dots move along the paths
-with the cursor over the phase. Lines of the grid are 1 m apart.
+Grey paths: a person showed how to pass an elliptic obstacle. Coloured paths: what each method made of it, thin for situations that were
+demonstrated, thick for others. A large vermilion point is a collision, at the deepest point. Dots move along the paths with the cursor over
+the phase. Lines of the grid are 1 m apart.
 
 Plots show forcing terms over the phase: grey what the demonstrations ask for (4), light lines what the model makes of taught situations,
-vermilion what it makes of others; each chain has a colour of its own. Ellipses are the states of the model at two standard deviations.";
+vermilion what it makes of others; each chain has a colour of its own, and each width a page. Ellipses are the states of the model at two standard deviations.";

@@ -10,13 +10,13 @@ use rerun::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
 use rerun::external::re_sdk_types::blueprint::archetypes::{Background, PlotLegend, TimeAxis, VisualBounds2D};
 
 use super::blueprint_property::Properties;
-use super::planar_entity::PHASE_INPUT;
-use super::planar_forcing::{AXES, recorded};
+use super::planar_entity::{CURVE, DEMONSTRATED, GAUSSIANS, PHASE_INPUT};
+use super::planar_forcing::{AXES, recorded, situation};
 use super::planar_map::bounds;
 use super::planar_recorder::ticks;
 use super::recorder::Fault;
 use super::{palette, planar_graph};
-use crate::planar::{Guidance, Method, PlanarOutcome};
+use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, named};
 
 /// The layout with the properties of its views.
 pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties), Fault> {
@@ -31,19 +31,26 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
     let columns = outcome.guidances().iter().map(|guidance| outcome.methods_with(*guidance).len()).max().unwrap_or(1);
     let mut forcing: Vec<ContainerLike> = Vec::new();
     for (guidance, method) in recorded(outcome) {
-        let axes = AXES.map(|axis| views.forcing(guidance, method, axis));
-        let [x, y] = axes;
+        let mut pages: Vec<ContainerLike> = Vec::new();
+        for (name, entities) in pages_of(outcome, guidance, method) {
+            let [x, y] = entities;
+            pages.push(Vertical::new([views.forcing("x", x)?.into(), views.forcing("y", y)?.into()]).with_name(name).into());
+        }
         let name = format!("{}{}", method.title(), told(guidance));
-        forcing.push(Vertical::new([x?.into(), y?.into()]).with_name(name).into());
+        forcing.push(if pages.len() == 1 { pages.remove(0) } else { Tabs::new(pages).with_name(name).into() });
     }
-    let mut words: Vec<ContainerLike> = Vec::new();
+    let mut right: Vec<ContainerLike> = vec![Tabs::new(forcing).into()];
+    let mut shares = vec![2.0];
     if let Some(transitions) = &outcome.transitions {
         let graph = GraphView::new("States and chains, the side not told").with_origin("/transitions");
-        words.push(graph.with_visual_bounds(&VisualBounds2D::new(planar_graph::bounds(transitions))).into());
+        right.push(graph.with_visual_bounds(&VisualBounds2D::new(planar_graph::bounds(transitions))).into());
+        shares.push(0.75);
     }
-    words.push(TextDocumentView::new("How to read").with_origin("/guide").into());
+    // A new reader reads first: what says how to is never behind something else.
+    right.push(TextDocumentView::new("How to read").with_origin("/guide").into());
+    shares.push(0.85);
     let left = Grid::new(maps).with_grid_columns(columns as u32);
-    let right = Vertical::new([Tabs::new(forcing).into(), Tabs::new(words).into()]).with_row_shares(vec![2.2, 1.0]);
+    let right = Vertical::new(right).with_row_shares(shares);
     let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.2, 1.0]))
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
@@ -77,10 +84,9 @@ impl Views {
     }
 
     /// A legend of dozens of curves would cover them: the guide names the colours.
-    fn forcing(&mut self, guidance: Guidance, method: Method, axis: &str) -> Result<View, Fault> {
-        let contents = [format!("/forcing/demonstrated/{axis}/**"), format!("/forcing/{}/{}/{axis}/**", guidance.key(), method.key())];
-        let name = format!("Forcing along {axis} (m) over the phase");
-        let view = view(TimeSeriesView::new(name).with_origin("/forcing").with_contents(contents))?;
+    fn forcing(&mut self, axis: &str, entities: Vec<String>) -> Result<View, Fault> {
+        let name = format!("Forcing along {axis} (m) over the phase: 0 s is the start, 1 s the end");
+        let view = view(TimeSeriesView::new(name).with_origin("/forcing").with_contents(entities))?;
         self.properties.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
         // Left to itself the viewer shows a piece around the cursor.
         let [from, to] = self.inputs;
@@ -88,6 +94,33 @@ impl Views {
         self.properties.set(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::Independent).with_view_range(whole));
         Ok(view)
     }
+}
+
+/// What the plots of a method show along x and y, page by page: where obstacles differ in width, each width has a page.
+fn pages_of(outcome: &PlanarOutcome, guidance: Guidance, method: Method) -> Vec<(String, [Vec<String>; 2])> {
+    let own: Vec<&ForcingCurve> = outcome.forcing_with(guidance).filter(|curve| curve.method == Some(method)).collect();
+    let mut widths: Vec<(f64, bool)> = own.iter().filter_map(|curve| Some((curve.half_width_m()?, curve.taught))).collect();
+    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
+    widths.dedup();
+    if widths.len() < 2 {
+        let all = AXES.map(|axis| {
+            vec![format!("/forcing/demonstrated/{axis}/**"), format!("/forcing/{}/{}/{axis}/**", guidance.key(), method.key())]
+        });
+        return vec![(format!("{}{}", method.title(), told(guidance)), all)];
+    }
+    let page = |(width, taught): &(f64, bool)| {
+        let entities = AXES.map(|axis| {
+            let of_width = own.iter().filter(|curve| curve.half_width_m() == Some(*width));
+            let drawn = of_width.flat_map(|curve| {
+                let names = [guidance.key(), method.key(), axis, &situation(curve)].map(str::to_owned);
+                [&CURVE, &GAUSSIANS].map(|entity| entity.of(&names.each_ref().map(String::as_str)))
+            });
+            let shown = outcome.demonstrations.iter().filter(|shown| shown.obstacle.half_axes_m[0] == *width);
+            shown.map(|shown| DEMONSTRATED.of(&[axis, &shown.name])).chain(drawn).map(|path| path.to_string()).collect()
+        });
+        (named(*width, *taught), entities)
+    };
+    widths.iter().map(page).collect()
 }
 
 /// The least and the greatest phase input, with a little space around, on the timeline.

@@ -7,7 +7,7 @@ use super::planar_entity::{COLLISIONS, DEMONSTRATIONS, GOALS, GRID, MAP, OBSTACL
 use super::planar_recorder::PlanarRecorder;
 use super::recorder::Fault;
 use crate::math::ellipse_outline;
-use crate::planar::{Case, Ellipse, Guidance, Method, Movement, PlanarOutcome};
+use crate::planar::{Case, Guidance, Method, Movement, Obstacle, PlanarOutcome, obstacles};
 
 /// Lines at whole metres, on white.
 const GRID_COLOR: Color = palette::rgb(crate::palette::Rgb::new(228, 228, 228));
@@ -17,14 +17,20 @@ pub(super) fn log_map(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Res
     let up = Transform3D::from_mat3x3([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]);
     recorder.always(MAP.path(), &up)?;
     recorder.always(GRID.path(), &strips(grid(bounds(outcome)), GRID_COLOR, 0.5))?;
-    let outlines = obstacles(outcome).iter().map(|o| closed(ellipse_outline(o.centre_m, o.half_axes_m))).collect();
-    recorder.always(OBSTACLES.path(), &strips(outlines, palette::IDLE, 1.5))?;
+    let obstacles = obstacles(&outcome.cases);
+    let outline = |one: &Obstacle| closed(ellipse_outline(one.ellipse.centre_m, one.ellipse.half_axes_m));
+    let outlines = strips(obstacles.iter().map(outline).collect(), palette::IDLE, 1.5);
+    let colors = obstacles.iter().map(|one| one.color().map_or(palette::IDLE, palette::rgb));
+    recorder.always(
+        OBSTACLES.path(),
+        &outlines.with_colors(colors).with_labels(obstacles.iter().map(Obstacle::name)).with_show_labels(false),
+    )?;
     let shown = outcome.demonstrations.iter().map(|shown| points(&shown.path_m)).collect();
     recorder.always(DEMONSTRATIONS.path(), &strips(shown, palette::TAUGHT, 0.7))?;
     goals(recorder, outcome)?;
     for guidance in outcome.guidances() {
         for method in outcome.methods_with(guidance) {
-            Drawn { recorder, outcome, guidance, method }.log()?;
+            Drawn { recorder, outcome, obstacles: &obstacles, guidance, method }.log()?;
         }
     }
     Ok(())
@@ -47,6 +53,7 @@ pub(super) fn bounds(outcome: &PlanarOutcome) -> [[f64; 2]; 2] {
 struct Drawn<'a> {
     recorder: &'a PlanarRecorder,
     outcome: &'a PlanarOutcome,
+    obstacles: &'a [Obstacle],
     guidance: Guidance,
     method: Method,
 }
@@ -54,28 +61,36 @@ struct Drawn<'a> {
 impl<'a> Drawn<'a> {
     fn log(&self) -> Result<(), Fault> {
         let names = [self.guidance.key(), self.method.key()];
-        let color = palette::rgb(self.method.color());
         for (entity, taught, width) in [(TAUGHT, true, 0.9), (UNSEEN, false, 2.0)] {
             let of_kind: Vec<_> = self.movements().filter(|(case, _)| case.taught == taught).collect();
             let labels = of_kind.iter().map(|(case, _)| case.name.clone());
-            let paths = strips(of_kind.iter().map(|(_, movement)| points(&movement.path_m)).collect(), color, width);
-            self.recorder.always(entity.of(&names), &paths.with_labels(labels).with_show_labels(false))?;
+            let paths = strips(of_kind.iter().map(|(_, movement)| points(&movement.path_m)).collect(), palette::IDLE, width);
+            let colors = of_kind.iter().map(|(case, _)| self.color(case));
+            self.recorder.always(entity.of(&names), &paths.with_colors(colors).with_labels(labels).with_show_labels(false))?;
         }
         let hits = self.movements().filter(|(_, movement)| movement.collides).filter_map(|(case, movement)| deepest(case, movement));
         let hits = Points2D::new(points(&hits.collect::<Vec<_>>())).with_colors([palette::PERSON]).with_radii([Radius::new_ui_points(6.0)]);
         self.recorder.always(COLLISIONS.of(&names), &hits)?;
-        self.places(&names, color)
+        self.places(&names)
+    }
+
+    /// Of several obstacles each has a colour, and so has what passes it; else it is the method's.
+    fn color(&self, case: &Case) -> Color {
+        let of_obstacle = self.obstacles.iter().find(|one| one.ellipse == case.obstacle).and_then(Obstacle::color);
+        palette::rgb(of_obstacle.unwrap_or(self.method.color()))
     }
 
     /// Where the movements are at each phase.
-    fn places(&self, names: &[&str], color: Color) -> Result<(), Fault> {
+    fn places(&self, names: &[&str]) -> Result<(), Fault> {
         let entity = PLACES.of(names);
         let paths: Vec<&[[f64; 2]]> = self.movements().map(|(_, movement)| movement.path_m.as_slice()).collect();
         let samples = paths.iter().map(|path| path.len()).min().unwrap_or(0);
         let inputs: Vec<f64> = (0..samples).map(|t| self.input_at(t as f64 / (samples.max(2) - 1) as f64)).collect();
         let rows = (0..samples).flat_map(|t| paths.iter().map(move |path| point(&path[t])));
         let columns = Points2D::update_fields().with_positions(rows).columns(std::iter::repeat_n(paths.len(), samples))?;
-        let look = Points2D::update_fields().with_colors([color]).with_radii([Radius::new_ui_points(4.0)]);
+        let look = Points2D::update_fields()
+            .with_colors(self.movements().map(|(case, _)| self.color(case)))
+            .with_radii([Radius::new_ui_points(4.0)]);
         self.recorder.always(entity.clone(), &look)?;
         self.recorder.over_phase(entity, &inputs, columns)
     }
@@ -101,19 +116,9 @@ fn goals(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Result<(), Fault
             goals.push((case.goal_m, case.taught));
         }
     }
-    let colors = goals.iter().map(|(_, taught)| if *taught { palette::IDLE } else { palette::MINIMISES });
+    let colors = goals.iter().map(|(_, taught)| if *taught { palette::IDLE } else { palette::rgb(crate::palette::YELLOW) });
     let places: Vec<[f64; 2]> = goals.iter().map(|(goal, _)| *goal).collect();
     recorder.always(GOALS.path(), &Points2D::new(points(&places)).with_colors(colors).with_radii([Radius::new_ui_points(4.0)]))
-}
-
-fn obstacles(outcome: &PlanarOutcome) -> Vec<Ellipse> {
-    let mut obstacles: Vec<Ellipse> = Vec::new();
-    for case in &outcome.cases {
-        if !obstacles.contains(&case.obstacle) {
-            obstacles.push(case.obstacle);
-        }
-    }
-    obstacles
 }
 
 /// Lines at whole metres within bounds (m).

@@ -29,12 +29,12 @@ impl PlanarRecorder {
         inputs: &[f64],
         columns: impl IntoIterator<Item = SerializedComponentColumn>,
     ) -> Result<(), Fault> {
-        let times = TimeColumn::new_sequence(PHASE_INPUT.name, inputs.iter().map(|input| ticks(*input)));
+        let times = TimeColumn::new_duration_nanos(PHASE_INPUT.name, inputs.iter().map(|input| ticks(*input)));
         Ok(self.stream.send_columns(entity, [times], columns)?)
     }
 }
 
-/// A phase input (-) on the timeline.
+/// A phase input (-) on the timeline: 1 is a second, of which the viewer writes fractions, as it does not of numbers.
 pub(super) fn ticks(input: f64) -> i64 {
-    (input * 1e4).round() as i64
+    (input * 1e9).round() as i64
 }

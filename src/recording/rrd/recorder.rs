@@ -3,6 +3,7 @@
 use nalgebra::Isometry3;
 use rerun::{AsComponents, EntityPath, RecordingStream, SerializedComponentColumn, TimeColumn};
 
+use super::axis_range::Ranges;
 use super::convert;
 use super::entity_path::{PHASE, SIM_TIME, STEP, Timeline};
 use crate::simulation::StepRecord;
@@ -18,21 +19,23 @@ pub(super) struct Recorder {
     /// Engine step (s), and duration of the skill (s).
     step_s: f64,
     duration_s: f64,
+    /// Takes note of the scalars that are logged.
+    ranges: Ranges,
     /// Whether another recorder has begun what this one goes on with.
     continues: bool,
 }
 
 impl Recorder {
     /// Sends to `stream`. Other times than those of the records are mapped by the engine's step and the skill's duration (s).
-    pub(super) fn new(stream: RecordingStream, records: &[StepRecord], step_s: f64, duration_s: f64) -> Self {
+    pub(super) fn new((stream, ranges): (RecordingStream, Ranges), records: &[StepRecord], step_s: f64, duration_s: f64) -> Self {
         stream.set_log_time_enabled(false);
         stream.set_log_tick_enabled(false);
         let steps = [
             records.iter().map(|r| nanoseconds(r.time_s)).collect(),
             records.iter().map(|r| r.step as i64).collect(),
-            records.iter().map(|r| ten_thousandths(r.time_fraction)).collect(),
+            records.iter().map(|r| nanoseconds(r.time_fraction)).collect(),
         ];
-        Self { stream, steps, step_s, duration_s, continues: false }
+        Self { stream, steps, step_s, duration_s, ranges, continues: false }
     }
 
     /// Goes on with what another recorder has begun: what holds at all times has been said.
@@ -89,9 +92,9 @@ impl Recorder {
         let times = [
             TimeColumn::new_duration_nanos(SIM_TIME.name, of(times)),
             TimeColumn::new_sequence(STEP.name, of(steps)),
-            TimeColumn::new_sequence(PHASE.name, of(phases)),
+            TimeColumn::new_duration_nanos(PHASE.name, of(phases)),
         ];
-        Ok(self.stream.send_columns(entity, times, columns)?)
+        self.send(entity.into(), times, columns)
     }
 
     /// Logs rows at `times_s` (s).
@@ -104,9 +107,9 @@ impl Recorder {
         let times = [
             TimeColumn::new_duration_nanos(SIM_TIME.name, times_s.iter().map(|t| nanoseconds(*t))),
             TimeColumn::new_sequence(STEP.name, times_s.iter().map(|t| (t / self.step_s).round() as i64)),
-            TimeColumn::new_sequence(PHASE.name, times_s.iter().map(|t| ten_thousandths(t / self.duration_s))),
+            TimeColumn::new_duration_nanos(PHASE.name, times_s.iter().map(|t| nanoseconds(t / self.duration_s))),
         ];
-        Ok(self.stream.send_columns(entity, times, columns)?)
+        self.send(entity.into(), times, columns)
     }
 
     /// Logs rows at `times_s` (s) of one timeline, and nowhere else.
@@ -118,7 +121,18 @@ impl Recorder {
         columns: impl IntoIterator<Item = SerializedComponentColumn>,
     ) -> Result<(), Fault> {
         let times = TimeColumn::new_duration_nanos(timeline.name, times_s.iter().map(|t| nanoseconds(*t)));
-        Ok(self.stream.send_columns(entity, [times], columns)?)
+        self.send(entity.into(), [times], columns)
+    }
+
+    fn send(
+        &self,
+        entity: EntityPath,
+        times: impl IntoIterator<Item = TimeColumn>,
+        columns: impl IntoIterator<Item = SerializedComponentColumn>,
+    ) -> Result<(), Fault> {
+        let columns: Vec<SerializedComponentColumn> = columns.into_iter().collect();
+        columns.iter().for_each(|column| self.ranges.note(&entity, column));
+        Ok(self.stream.send_columns(entity, times, columns)?)
     }
 
     /// Logs poses, one of each record, when they change.
@@ -134,10 +148,7 @@ impl Recorder {
     }
 }
 
+/// On a timeline. A phase of 1 is a second, of which the viewer writes fractions, as it does not of numbers.
 fn nanoseconds(time_s: f64) -> i64 {
     (time_s * 1e9).round() as i64
-}
-
-fn ten_thousandths(fraction: f64) -> i64 {
-    (fraction * 1e4).round() as i64
 }

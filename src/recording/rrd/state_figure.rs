@@ -1,13 +1,14 @@
 //! The states of the motion model: ellipsoids in the scene, ellipses over time in the plots, coloured by beta.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use rerun::{Ellipsoids3D, Points3D, Radius, Scalars};
+use rerun::{Ellipsoids3D, Points3D, Radius};
 
 use super::convert;
-use super::entity_path::{ACTIVE_LABEL, ACTIVE_STATE, STATE_LOWER, STATE_UPPER, STATES};
+use super::entity_path::{ACTIVE_LABEL, ACTIVE_STATE, STATE_OUTLINES, STATES};
 use super::lanes::{beta_color, beta_in_words};
+use super::outline_figure::{Outline, around, log_outlines};
 use super::palette;
-use super::paths::{AXES, style};
+use super::paths::AXES;
 use super::recorder::{Fault, Recorder};
 use super::task_states::{Plan, State, states};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
@@ -18,19 +19,15 @@ pub(super) const DEVIATIONS: f64 = 2.0;
 /// Half axes of ellipsoids are at least this long (m), or those of states on which all agree could not be seen.
 const THINNEST_M: f64 = 0.004;
 
-/// Points of half an ellipse.
-pub(super) const POINTS: usize = 41;
-
 /// Logs the states of the skill in the setting of `experiment`; a skill without states logs none.
 pub(super) fn log_states(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome, duration_s: f64) -> Result<(), Fault> {
     let states = states(experiment, outcome, duration_s)?;
     let Some(plan) = Plan::new(&outcome.plan, duration_s).filter(|_| !states.is_empty()) else { return Ok(()) };
     let all: Vec<usize> = (0..states.len()).collect();
     recorder.always(STATES.path(), &ellipsoids(&states, &all).with_line_radii([Radius::new_ui_points(0.7)]))?;
-    for (index, state) in states.iter().enumerate() {
-        for axis in 0..3 {
-            log_ellipse(recorder, index, state, axis, &plan)?;
-        }
+    for (axis, name) in AXES.iter().enumerate() {
+        let outlines: Vec<Outline<'_>> = states.iter().map(|state| outline(state, axis, &plan)).collect();
+        log_outlines(recorder, &STATE_OUTLINES.of(&[name]), &outlines)?;
     }
     Ok(())
 }
@@ -81,21 +78,16 @@ fn thick_axes(state: &State) -> (Vector3<f64>, UnitQuaternion<f64>) {
     (half.map(|length| length.max(THINNEST_M)), turn)
 }
 
-/// The ellipse of a state over time, carried along the planned coordinate `m(t)`, as two curves:
+/// The ellipse of a state over time, carried along the planned coordinate `m(t)`:
 /// `x = m(t) ± k sigma_x sqrt(1 - (t - t_i)^2 / (k sigma_t)^2)`.
-fn log_ellipse(recorder: &Recorder, index: usize, state: &State, axis: usize, plan: &Plan) -> Result<(), Fault> {
-    let half_width = DEVIATIONS * state.time_deviation_s;
+fn outline<'a>(state: &State, axis: usize, plan: &'a Plan) -> Outline<'a> {
+    let (middle_s, half_width) = (state.time_s, DEVIATIONS * state.time_deviation_s);
     let half_height = DEVIATIONS * state.spread[(axis, axis)].max(0.0).sqrt();
-    // Angles spaced evenly, so that the curves' steep ends have as many points as their flat middles.
-    let angles = (0..POINTS).map(|i| std::f64::consts::PI * (1.0 - i as f64 / (POINTS - 1) as f64));
-    let points = angles.map(|angle| (state.time_s + half_width * angle.cos(), half_height * angle.sin()));
-    let (times, offsets): (Vec<f64>, Vec<f64>) = points.filter(|(t, _)| (0.0..=plan.duration_s).contains(t)).unzip();
-    let style = style(&format!("state, {}", beta_in_words(state.beta)), beta_color(state.beta), 1.0);
-    for (entity, sign) in [(STATE_UPPER, 1.0), (STATE_LOWER, -1.0)] {
-        let entity = entity.of(&[AXES[axis], &index.to_string()]);
-        let values = times.iter().zip(&offsets).map(|(t, dx)| plan.at(axis, *t) + sign * dx);
-        recorder.always(entity.clone(), &style)?;
-        recorder.at_times(entity, &times, Scalars::new(values).columns_of_unit_batches()?)?;
-    }
-    Ok(())
+    let halves = move |time_s: f64| {
+        let (middle, away) = (plan.at(axis, time_s), (time_s - middle_s) / half_width);
+        let half = half_height * (1.0 - away * away).sqrt();
+        [middle + half, middle - half]
+    };
+    let times_s = around(middle_s, half_width).filter(|time_s| (0.0..=plan.duration_s).contains(time_s)).collect();
+    Outline { beta: state.beta, times_s, halves: Box::new(halves) }
 }

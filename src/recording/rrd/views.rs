@@ -5,10 +5,11 @@ use rerun::blueprint::components::{BackgroundKind, LinkAxis};
 use rerun::blueprint::{ContainerLike, Spatial3DView, TextLogView, TimeSeriesView, View};
 use rerun::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
 use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, TextLogColumns, TimeAxis, VisibleTimeRanges,
+    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TextLogColumns, TimeAxis, VisibleTimeRanges,
 };
 use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind, TimelineColumn};
 
+use super::axis_range::{LEAST_STEP, LEAST_STEP_OF_LOW, Ranges};
 use super::blueprint_property::Properties;
 use super::convert;
 use super::entity_path::{SIM_TIME, TIMELINES};
@@ -25,6 +26,8 @@ pub(super) fn motion_title(axis: &str, others: &str) -> String {
 #[derive(Default)]
 pub(super) struct Views {
     pub properties: Properties,
+    /// What has been told, as far as it is known.
+    pub ranges: Ranges,
 }
 
 impl Views {
@@ -55,9 +58,21 @@ impl Views {
 
     /// A plot over time, linked with all others. A legend would stand over the data: titles name the colours.
     pub fn plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
+        self.plot_with(name, origin, LEAST_STEP)
+    }
+
+    /// The same for a place that is lower than others.
+    pub fn low_plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
+        self.plot_with(name, origin, LEAST_STEP_OF_LOW)
+    }
+
+    fn plot_with(&mut self, name: &str, origin: &str, least_step: f64) -> Result<View, Fault> {
         let view = view(TimeSeriesView::new(name).with_origin(origin))?;
         self.properties.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
         self.properties.set(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
+        if let Some(range) = self.ranges.of(origin, least_step) {
+            self.properties.set(&view, "ScalarAxis", ScalarAxis::new().with_range(range));
+        }
         Ok(view)
     }
 

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use rerun::RecordingStreamBuilder;
 use rerun::blueprint::components::PlayState;
+use rerun::external::re_log_encoding::Encoder;
 
+use super::axis_range::Ranges;
 use super::chapters::{APPLICATION, Chapters};
 use super::recorder::Fault;
 use super::workplace::Workplace;
@@ -41,18 +43,22 @@ fn record(experiment: &Experiment, outcome: &RunOutcome) -> Result<Vec<u8>, Faul
     stream.send_recording_name(name(experiment))?;
     let chapters = Chapters {
         stream: stream.clone(),
+        ranges: Ranges::default(),
         experiment,
         work: Workplace::of_steps(&outcome.steps),
         duration_s: skill_duration_s(&outcome.steps).unwrap_or_else(|| outcome.plan.duration_s()),
         beside: &outcome.beside,
     };
-    chapters.layout(&outcome.robot, !outcome.lessons.is_empty(), PlayState::Paused)?;
     chapters.lessons(&outcome.robot, &outcome.lessons)?;
     chapters.skill(outcome)?;
     chapters.execution(outcome, 0)?;
     chapters.end(outcome)?;
     stream.flush_blocking()?;
-    Ok(storage.drain_as_bytes()?)
+    let told = storage.take();
+    chapters.layout(&outcome.robot, !outcome.lessons.is_empty(), PlayState::Paused)?;
+    stream.flush_blocking()?;
+    // The layout depends on what is told, and comes before it: a viewer arranges what it reads while it still reads.
+    Ok(Encoder::encode(storage.take().into_iter().chain(told).map(Ok))?)
 }
 
 /// What the viewer calls a recording.

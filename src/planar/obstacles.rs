@@ -1,0 +1,55 @@
+//! Which obstacle is which: where there are several, each has a colour of its own, and so has what passes it.
+
+use super::{Case, Ellipse};
+use crate::palette::{BLUE, BROWN, GREEN, ORANGE, PURPLE, Rgb, SKY_BLUE};
+
+/// Colours of obstacles, in order; with more obstacles they come again. Vermilion is left to collisions.
+const COLORS: [(Rgb, &str); 6] =
+    [(BLUE, "blue"), (GREEN, "green"), (ORANGE, "orange"), (PURPLE, "purple"), (SKY_BLUE, "sky blue"), (BROWN, "brown")];
+
+/// An obstacle of an experiment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Obstacle {
+    /// Where it is.
+    pub ellipse: Ellipse,
+    /// Whether it was demonstrated how to pass it.
+    pub taught: bool,
+    /// Its colour with the colour's name; none when it is the only one, which needs none.
+    pub look: Option<(Rgb, &'static str)>,
+}
+
+impl Obstacle {
+    /// Its colour among others.
+    #[must_use]
+    pub fn color(&self) -> Option<Rgb> {
+        self.look.map(|(color, _)| color)
+    }
+
+    /// What it is called among others: `half width 1.5 m, new`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        named(self.ellipse.half_axes_m[0], self.taught)
+    }
+}
+
+/// What an obstacle of this half width (m) is called.
+#[must_use]
+pub fn named(half_width_m: f64, taught: bool) -> String {
+    format!("half width {half_width_m} m, {}", if taught { "taught" } else { "new" })
+}
+
+/// The obstacles of some situations, each once, from the narrowest to the widest.
+#[must_use]
+pub fn obstacles<'a>(cases: impl IntoIterator<Item = &'a Case>) -> Vec<Obstacle> {
+    let mut all: Vec<Obstacle> = Vec::new();
+    for case in cases {
+        if all.iter().all(|known| known.ellipse != case.obstacle) {
+            all.push(Obstacle { ellipse: case.obstacle, taught: case.taught, look: None });
+        }
+    }
+    all.sort_by(|a, b| a.ellipse.half_axes_m[0].total_cmp(&b.ellipse.half_axes_m[0]));
+    if all.len() > 1 {
+        all.iter_mut().zip(COLORS.iter().cycle()).for_each(|(obstacle, look)| obstacle.look = Some(*look));
+    }
+    all
+}

@@ -1,0 +1,58 @@
+//! Contract: where obstacles differ in width, figures say which width everything in them is about.
+
+use std::sync::LazyLock;
+
+use cpdmp::figure::{Mark, Shape, planar_forcing, planar_paths};
+use cpdmp::planar::{Guidance, Method, PlanarOutcome, TwoSidedObstacleSettings, obstacles, two_sided_obstacle};
+
+/// The experiment with small models.
+static OUTCOME: LazyLock<PlanarOutcome> = LazyLock::new(|| {
+    let mut settings = TwoSidedObstacleSettings::default();
+    (settings.learning.motion.states, settings.learning.motion.max_iterations) = (4, 20);
+    settings.tpgmm.components = 4;
+    two_sided_obstacle(&settings, 0, &|| true).expect("it can be learned")
+});
+
+fn points(mark: &Mark) -> &[[f64; 2]] {
+    match &mark.shape {
+        Shape::Line { points, .. } => points,
+        _ => &[],
+    }
+}
+
+#[test]
+fn a_path_has_the_colour_of_the_obstacle_that_it_passes() {
+    let figure = planar_paths("", &OUTCOME, Guidance::WithSide);
+    let obstacles = obstacles(OUTCOME.cases_with(Guidance::WithSide));
+    assert!(obstacles.len() > 2 && obstacles.is_sorted_by_key(|one| one.ellipse.half_axes_m[0].to_bits()));
+    for (panel, method) in figure.panels.iter().zip(OUTCOME.methods_with(Guidance::WithSide)) {
+        for case in OUTCOME.cases_with(Guidance::WithSide) {
+            let passed = obstacles.iter().find(|one| one.ellipse == case.obstacle).expect("known");
+            for movement in case.of(method) {
+                let drawn: Vec<&Mark> = panel.marks.iter().filter(|mark| points(mark) == movement.path_m).collect();
+                assert!(!drawn.is_empty());
+                assert!(drawn.iter().all(|mark| Some(mark.color) == passed.color() && mark.legend == passed.name()));
+            }
+        }
+    }
+}
+
+#[test]
+fn every_width_has_panels_of_its_own_with_its_forcing_terms_alone() {
+    let figure = planar_forcing("", &OUTCOME, Guidance::WithSide, Method::Cpdmp);
+    let obstacles = obstacles(OUTCOME.cases_with(Guidance::WithSide));
+    assert_eq!(figure.panels.len(), 2 * obstacles.len());
+    for (index, panel) in figure.panels.iter().enumerate() {
+        let (obstacle, axis) = (obstacles[index / 2], index % 2);
+        assert_eq!(panel.title, obstacle.name());
+        let of_width = OUTCOME.forcing_with(Guidance::WithSide).filter(|curve| curve.method.is_none_or(|method| method == Method::Cpdmp));
+        let expected = of_width.filter(|curve| curve.half_width_m() == Some(obstacle.ellipse.half_axes_m[0]));
+        let mut expected: Vec<Vec<[f64; 2]>> =
+            expected.map(|curve| curve.phase.iter().zip(&curve.forcing_m).map(|(u, f)| [*u, f[axis]]).collect()).collect();
+        let mut drawn: Vec<Vec<[f64; 2]>> = panel.marks.iter().map(|mark| points(mark).to_vec()).filter(|line| !line.is_empty()).collect();
+        let order = |a: &Vec<[f64; 2]>, b: &Vec<[f64; 2]>| a.partial_cmp(b).expect("finite");
+        expected.sort_by(order);
+        drawn.sort_by(order);
+        assert_eq!(drawn, expected, "{}", panel.title);
+    }
+}
