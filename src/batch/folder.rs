@@ -10,7 +10,7 @@ use super::row_log::RowLog;
 use super::table::{Head, cells, columns};
 use super::table_file::write_table;
 use super::{BatchError, Plan, Row, Shard, Summary};
-use crate::report::{Lock, LockError, OutputError, lock};
+use crate::report::{Lock, OutputError, lock_beside};
 
 /// What marks a folder as that of a sweep.
 const FORMAT: &str = "cpdmp-sweep";
@@ -56,7 +56,7 @@ impl SweepFolder {
             shard: shard.to_string(),
             command,
         };
-        let lock = take(path)?;
+        let lock = lock_beside(path)?;
         match found(path)? {
             None => begin(path, &about)?,
             Some(_) if !resume => return Err(BatchError::Begun(path.to_path_buf())),
@@ -89,18 +89,6 @@ impl SweepFolder {
         write_table(&target, &head, rows)?;
         Ok((target, summary))
     }
-}
-
-fn take(path: &Path) -> Result<Lock, BatchError> {
-    let not_ours = || OutputError::NotOurs { path: path.to_path_buf(), what: "the folder of a sweep" };
-    let name = path.file_name().ok_or_else(not_ours)?.to_string_lossy().into_owned();
-    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    fs::create_dir_all(parent).map_err(BatchError::writing(parent))?;
-    let place = parent.join(format!(".{name}.lock"));
-    lock(&place).map_err(|error| match error {
-        LockError::Held(holder) => BatchError::Output(OutputError::Busy { path: path.to_path_buf(), holder }),
-        LockError::Io(source) => BatchError::Output(OutputError::Io { path: place.clone(), source }),
-    })
 }
 
 /// The sweep that the folder holds, if it holds one; an error if it holds something else.

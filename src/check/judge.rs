@@ -133,8 +133,8 @@ pub(super) fn clearance_of(clearances: &[Clearance], objects: &[String], links: 
     let asked = clearances.iter().filter(|c| objects.contains(&c.b) && (links.is_empty() || links.contains(&c.a)));
     let nearest = asked.filter(|c| c.min_distance_m.is_finite()).min_by(|a, b| a.min_distance_m.total_cmp(&b.min_distance_m));
     let value = nearest.map_or(f64::NAN, |c| c.min_distance_m);
-    let failed = nearest.filter(|c| c.min_distance_m < min_m).map(|c| c.time_s);
-    Answer::at_least(value, min_m, "m").first_failed(failed)
+    // When it was nearest is told with the distance; when it first came nearer than it may is not followed.
+    Answer::at_least(value, min_m, "m")
 }
 
 fn goal_reached(outcome: &RunOutcome, max_m: f64) -> Answer {

@@ -13,7 +13,8 @@ use super::load::options;
 use super::progress::Clock;
 use super::terminal::Terminal;
 use crate::report::{
-    CheckReport, Checked, InputFault, Outcome, OutputError, Replaceable, check_text, github, junit, junit_without_verdict, replace_file,
+    CheckReport, Checked, InputFault, Outcome, OutputError, Replaceable, check_text, github, junit, junit_without_verdict, lock_beside,
+    replace_file,
 };
 use crate::scenario::{Diagnostic, LoadOptions, Scenario, Severity};
 use crate::simulation::Progress;
@@ -22,6 +23,11 @@ use crate::simulation::Progress;
 /// outcome counts.
 pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> Outcome {
     // Whether the verdict can be written is known before minutes are spent on it; and until it is written, an earlier one does not stand for it.
+    let lock = arguments.junit.as_deref().map(lock_beside).transpose();
+    let _held_until_the_end = match lock {
+        Ok(lock) => lock,
+        Err(error) => return not_written(&error, terminal),
+    };
     let write = |text: &str| arguments.junit.as_deref().map_or(Ok(()), |path| replace_file(path, text.as_bytes(), Replaceable::Junit));
     if let Err(error) = write(&junit_without_verdict()) {
         return not_written(&error, terminal);

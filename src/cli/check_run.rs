@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::changed_scene::Ran;
 use super::check_motion::{judged, movement};
+use super::check_target::is_samples;
 use super::files::{REPORT, STEP_LOG};
 use super::progress::Clock;
 use super::recorded_run::{RecordedManifest, SCENARIO, as_recorded};
@@ -27,6 +28,11 @@ pub(super) fn judged_again(folder: &Path, options: &LoadOptions, clock: &Clock, 
         return refused(InputFault::of_file(&path, FileCode::Edited, message));
     }
     if let Some((file, message)) = manifest.altered(folder, &[REPORT, STEP_LOG]) {
+        return refused(InputFault::of_file(&file, FileCode::Edited, message));
+    }
+    if let Some(file) = manifest.changed_inputs().find(|path| !is_samples(path)) {
+        let again = format!("cpdmp run {} --out ANOTHER_FOLDER", path.display());
+        let message = format!("it has changed since the run, whose log tells nothing of it: restore it, or make the run again: `{again}`");
         return refused(InputFault::of_file(&file, FileCode::Edited, message));
     }
     let options = manifest.may_use(options);

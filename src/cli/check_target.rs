@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::args::Check;
-use super::files::{REPORT, STEP_LOG};
+use super::files::{REPORT, SKILL, STATE_LOG, STEP_LOG};
 use super::recorded_run::SCENARIO;
-use super::select::{files_like, scenarios};
+use super::select::{files_like, folders_like, scenarios};
 use super::terminal::Terminal;
 use crate::report::Outcome;
 
@@ -58,11 +58,12 @@ pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Targ
 
 /// Whether it is the folder of a run: also one whose manifest is lost, which is refused as such. Taken for a scenario, it would be simulated.
 fn is_run(path: &Path) -> bool {
-    let holds = |name: &str| path.join(name).is_file();
-    holds("manifest.json") || holds(SCENARIO) && (holds(REPORT) || holds(STEP_LOG))
+    let holds = |name: &&str| path.join(name).is_file();
+    holds(&"manifest.json") || [SCENARIO, REPORT, STEP_LOG, STATE_LOG, SKILL].iter().filter(|name| holds(name)).count() > 1
 }
 
-fn is_samples(path: &Path) -> bool {
+/// Whether it is named like a file of samples.
+pub(super) fn is_samples(path: &Path) -> bool {
     path.extension().is_some_and(|extension| SAMPLES.iter().any(|known| extension.eq_ignore_ascii_case(known)))
 }
 
@@ -76,10 +77,9 @@ fn samples_in(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The runs in a folder, sorted.
-fn runs_in(folder: &Path) -> Vec<PathBuf> {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
-    let mut runs: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(|path| is_run(path)).collect();
-    runs.sort();
+/// The runs in a folder, or those that match a pattern, sorted.
+fn runs_in(path: &Path) -> Vec<PathBuf> {
+    let mut runs = if path.is_dir() { folders_like(&path.join("*")) } else { folders_like(path) };
+    runs.retain(|path| is_run(path));
     runs
 }

@@ -80,6 +80,12 @@ impl RecordedManifest {
         inputs.iter().filter_map(|found| Some((input(found)?, found["xxh3_64"].as_str()))).collect()
     }
 
+    /// Those of the files that are not as they were. The scenario's own do not matter: what they said is in the folder's scenario.toml.
+    pub fn changed_inputs(&self) -> impl Iterator<Item = PathBuf> {
+        let decisive = self.inputs().into_iter().filter(|(path, _)| path.extension().is_none_or(|extension| extension != "toml"));
+        decisive.filter(|(path, hash)| hash_file(path).xxh3_64.as_deref() != *hash).map(|(path, _)| path)
+    }
+
     /// The options, with the folders of those files allowed: the run was allowed to use them.
     pub fn may_use(&self, options: &LoadOptions) -> LoadOptions {
         let folders = self.inputs().into_iter().filter_map(|(path, _)| Some(path.parent()?.to_path_buf()));
@@ -138,10 +144,7 @@ impl Recorded {
         if changed {
             reasons.push("flags make it another run than the recorded one".to_owned());
         }
-        // The scenario's own files do not matter: what they said is in the folder's scenario.toml.
-        let decisive = self.manifest.inputs().into_iter().filter(|(path, _)| path.extension().is_none_or(|extension| extension != "toml"));
-        let changed = decisive.filter(|(path, hash)| hash_file(path).xxh3_64.as_deref() != *hash);
-        reasons.extend(changed.map(|(path, _)| format!("{} has changed since the run", path.display())));
+        reasons.extend(self.manifest.changed_inputs().map(|path| format!("{} has changed since the run", path.display())));
         let text = |value: &Value| value.as_str().unwrap_or("unknown").to_owned();
         let (version, host) = (text(&self.manifest.0["version"]), Host::this());
         let arch = text(&self.manifest.0["host"]["arch"]);

@@ -29,7 +29,7 @@ pub(super) fn select(paths: &[PathBuf], terminal: &Terminal) -> Result<Vec<PathB
 pub(super) fn scenarios(path: &Path) -> Vec<PathBuf> {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     if path.is_dir() {
-        matching(path, "*.toml")
+        matching(path, "*")
     } else if !path.exists() && name.contains(['*', '?']) {
         matching(path.parent().unwrap_or(Path::new("")), &name)
     } else {
@@ -48,17 +48,32 @@ pub(super) fn files_like(path: &Path) -> Vec<PathBuf> {
 /// The scenario files of a folder whose names match the pattern, sorted.
 fn matching(folder: &Path, pattern: &str) -> Vec<PathBuf> {
     let mut files = all_matching(folder, pattern);
-    files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
+    files.retain(|file| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")));
     files
+}
+
+/// The folders that one argument names as a pattern.
+pub(super) fn folders_like(path: &Path) -> Vec<PathBuf> {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let is_pattern = !path.exists() && name.contains(['*', '?']);
+    let mut found = if is_pattern { entries_matching(path.parent().unwrap_or(Path::new("")), &name) } else { Vec::new() };
+    found.retain(|path| path.is_dir());
+    found
 }
 
 /// The files of a folder whose names match the pattern, sorted.
 fn all_matching(folder: &Path, pattern: &str) -> Vec<PathBuf> {
+    let mut files = entries_matching(folder, pattern);
+    files.retain(|file| !file.is_dir());
+    files
+}
+
+/// What is in a folder under names that match the pattern, sorted.
+fn entries_matching(folder: &Path, pattern: &str) -> Vec<PathBuf> {
     let place = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = std::fs::read_dir(place) else { return Vec::new() };
     let names = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
     let mut files: Vec<PathBuf> = names.filter(|name| matches(pattern, name)).map(|name| folder.join(name)).collect();
-    files.retain(|file| !file.is_dir());
     files.sort();
     files
 }

@@ -68,7 +68,10 @@ fn checked(arguments: &SweepArguments, global: &Global, terminal: &Terminal) -> 
                 Ok(_) => Ok(()),
             };
             let terms = Terms { limit: global.timeout, deny_warnings: global.deny_warnings };
-            Plan::check(sweep, &terms, &ready).map_err(|not_ready| tell_not_ready(&arguments.path, &not_ready, terminal))
+            let plan = Plan::check(sweep, &terms, &ready).map_err(|not_ready| tell_not_ready(&arguments.path, &not_ready, terminal))?;
+            // What is odd about the file is so in all members: it is told of the first.
+            plan.member(0).iter().for_each(|member| terminal.faults(&member.scenario.warnings));
+            Ok(plan)
         }
     }
 }

@@ -5,6 +5,8 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::OutputError;
+
 /// A lock that is held. Dropping it lets go and removes the file.
 #[derive(Debug)]
 pub struct Lock {
@@ -40,6 +42,21 @@ pub fn lock(path: &Path) -> Result<Lock, LockError> {
             return Ok(Lock { path: path.to_path_buf(), _file: file });
         }
     }
+}
+
+/// Takes the lock of what is written to `target`: a hidden file beside it, in its folder, which is made.
+///
+/// # Errors
+/// When another process writes there, `target` has no name, or the file system refuses.
+pub fn lock_beside(target: &Path) -> Result<Lock, OutputError> {
+    let name = target.file_name().ok_or_else(|| OutputError::NotARun(target.to_path_buf()))?.to_string_lossy().into_owned();
+    let parent = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    fs::create_dir_all(parent).map_err(OutputError::io(parent))?;
+    let place = parent.join(format!(".{name}.lock"));
+    lock(&place).map_err(|error| match error {
+        LockError::Held(holder) => OutputError::Busy { path: target.to_path_buf(), holder },
+        LockError::Io(source) => OutputError::Io { path: place.clone(), source },
+    })
 }
 
 fn holder(file: &mut File) -> String {

@@ -50,7 +50,7 @@ pub use github::github;
 pub use input_fault::{FileCode, InputFault};
 pub use junit::{junit, junit_without_verdict};
 pub use learn_report::LearnReport;
-pub use lock::{Lock, LockError, lock};
+pub use lock::{Lock, lock_beside};
 pub use manifest::{FileHash, Host, Manifest, hash_bytes, hash_file};
 pub use outcome::Outcome;
 pub use output_file::{Replaceable, prepare_file, replace_file, rewrite_file};

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::Outcome;
-use super::lock::{Lock, LockError, lock};
+use super::lock::{Lock, lock_beside};
 use super::manifest::FORMAT;
 
 /// Why output cannot be written.
@@ -69,12 +69,7 @@ impl RunFolder {
         may_be_replaced(target)?;
         let name = target.file_name().ok_or_else(|| OutputError::NotARun(target.to_path_buf()))?.to_string_lossy().into_owned();
         let parent = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        fs::create_dir_all(parent).map_err(OutputError::io(parent))?;
-        let lock_path = parent.join(format!(".{name}.lock"));
-        let lock = lock(&lock_path).map_err(|error| match error {
-            LockError::Held(holder) => OutputError::Busy { path: target.to_path_buf(), holder },
-            LockError::Io(source) => OutputError::Io { path: lock_path.clone(), source },
-        })?;
+        let lock = lock_beside(target)?;
         // Left behind only by a run that was killed: under the lock nobody else writes here.
         let staging = parent.join(format!(".{name}.partial"));
         remove_if_there(&staging)?;

@@ -10,7 +10,7 @@ use super::check_taught::{grid, parameters_are_taught};
 use super::check_times::{pushes, waypoints, windows_of_means};
 use super::fault::{Code, Fault};
 use super::measure::plain;
-use super::tree::Node;
+use super::tree::{Node, Value};
 
 /// Every fault between the keys of a filled scenario.
 pub(super) fn check(scenario: &Node) -> Vec<Fault> {
@@ -22,6 +22,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     names_beside(scenario, &mut faults);
     references(scenario, &mut faults);
     nothing_asked(scenario, &mut faults);
+    about_nothing(scenario, &mut faults);
     square_cabinets(scenario, &mut faults);
     handles_on_doors(scenario, &mut faults);
     planar(scenario, &mut faults);
@@ -51,6 +52,16 @@ fn nothing_asked(scenario: &Node, faults: &mut Vec<Fault>) {
     if list(scenario, "criterion").is_empty() {
         let message = "without a criterion this passes, whatever touches and wherever the movement ends";
         faults.push(Fault::at(Code::MissingKey, scenario.origin, message).expected("a [[criterion]]").warning());
+    }
+}
+
+/// A criterion about no object holds whatever happens.
+fn about_nothing(scenario: &Node, faults: &mut Vec<Fault>) {
+    for node in list(scenario, "criterion").iter().filter_map(|criterion| criterion.get("objects")) {
+        if node.items().is_empty() && matches!(node.value, Value::List(_)) {
+            let fault = Fault::at(Code::WrongLength, node.origin, "this criterion is about no object: it could not fail");
+            faults.push(fault.expected("the name of an object, or of several"));
+        }
     }
 }
 

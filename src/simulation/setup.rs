@@ -43,7 +43,8 @@ fn check_lengths(settings: &RobotSettings, joints: usize, idle_joints: Option<us
     if wrong.is_empty() { Ok(()) } else { Err(SimulationError::JointCounts(wrong)) }
 }
 
-/// Every part that criteria and allowed contacts name is a link of the robot, an object, or one of an object's parts.
+/// Every part that criteria and allowed contacts name is a link of the robot, an object, or one of an object's parts, and no two are called the
+/// same.
 fn check_parts(experiment: &Experiment, robot: &RobotModel) -> Result<(), SimulationError> {
     let links = || robot.frames.iter().map(|frame| frame.name.as_str());
     let is_object = |name: &str| experiment.objects.iter().any(|object| name.split('.').next() == Some(object.name.as_str()));
@@ -55,6 +56,13 @@ fn check_parts(experiment: &Experiment, robot: &RobotModel) -> Result<(), Simula
             format!("{place}: {key}: the robot has no link `{name}`, and the scene no object of that name{help}")
         })
         .collect();
+    let twins = experiment.objects.iter().filter(|object| links().any(|link| link == object.name)).map(|object| {
+        format!(
+            "object `{0}`: a link of the robot is called `{0}` too, and what is said of one would hold for both: name it otherwise",
+            object.name
+        )
+    });
+    let told: Vec<String> = told.into_iter().chain(twins).collect();
     if told.is_empty() { Ok(()) } else { Err(SimulationError::UnknownParts(told)) }
 }
 

@@ -8,7 +8,8 @@ use rapier3d_f64::prelude::{Collider, Pose};
 use super::contacts::ContactBook;
 use super::gap::Gap;
 use super::mechanism::{Mechanism, State};
-use super::parts::{Owner, Parts};
+use super::overlap;
+use super::parts::{Limb, Owner, Parts};
 use super::proximity::{Motion, ProximityBook, Watched};
 use super::robot_body::Limbs;
 use super::simulated_world::{FingerRange, follow_leaders};
@@ -57,9 +58,12 @@ impl KinematicScene {
     /// Builds the scene; the arm stands as the settings say until it is placed.
     ///
     /// # Errors
-    /// When the robot lacks the tool, the grasp or an arm, or a collision shape cannot be used.
+    /// When the robot lacks the tool, the grasp or an arm, a collision shape cannot be used, or something besides the working arm starts inside
+    /// something else.
     pub fn new(settings: &WorldSettings) -> Result<Self, WorldError> {
         let world = World::build(settings)?;
+        // Where the arm is, the movement says; everything else must stand apart as in a simulation.
+        overlap::refuse_among(&world.engine, &world.parts, |owner| !matches!(owner, Owner::Robot { limb: Limb::Working, .. }))?;
         let names: Vec<&str> = settings.objects.iter().map(|object| object.name.as_str()).collect();
         let named = |collider: &&Collider| world.parts.of(collider.user_data).is_some();
         let colliders: Vec<&Collider> = world.engine.colliders.iter().map(|(_, collider)| collider).filter(named).collect();

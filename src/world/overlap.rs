@@ -15,8 +15,16 @@ const START_OVERLAP_M: f64 = 1e-4;
 /// # Errors
 /// When there are any: all of them, with their depths.
 pub(super) fn refuse(engine: &PhysicsWorld, parts: &Parts) -> Result<(), WorldError> {
-    let all: Vec<(&Collider, &Part)> =
-        engine.colliders.iter().filter_map(|(_, collider)| Some((collider, parts.of(collider.user_data)?.1))).collect();
+    refuse_among(engine, parts, |_| true)
+}
+
+/// The same among the parts whose owners count.
+///
+/// # Errors
+/// As [`refuse`].
+pub(super) fn refuse_among(engine: &PhysicsWorld, parts: &Parts, counts: impl Fn(Owner) -> bool) -> Result<(), WorldError> {
+    let named = engine.colliders.iter().filter_map(|(_, collider)| Some((collider, parts.of(collider.user_data)?.1)));
+    let all: Vec<(&Collider, &Part)> = named.filter(|(_, part)| counts(part.owner)).collect();
     let mut pairs: Vec<(&str, &str, f64)> = Vec::new();
     for (i, (a, part_a)) in all.iter().enumerate() {
         for (b, part_b) in &all[i + 1..] {

@@ -164,3 +164,12 @@ fn movements_in_a_folder_are_judged_too() {
     let said = folder.call(&["check", "a.toml", "--scene", "a.toml", "-q"]);
     assert!(said.code == Some(2) && said.stderr.contains("--scene has no effect"), "{:?} {}", said.code, said.stderr);
 }
+
+/// Contract: a scene that cannot be simulated because things stand inside each other is none to judge a movement in.
+#[test]
+fn a_scene_that_cannot_be_is_none_to_judge_in() {
+    let folder = folder(&samples(&[REST, REST], &[]));
+    let inside = ["--set", "object.block.center_m=[0.0,0.0]", "--set", "object.block.raised_m=0.5"];
+    let said = folder.call(&[&["check", "a.csv", "--scene", "a.toml", "-q"], &inside[..]].concat());
+    assert!(said.code == Some(3) && said.stdout.contains("inside") && said.stdout.contains("error[scene]"), "{}", said.stdout);
+}

@@ -26,6 +26,7 @@ mod schemas;
 mod sweep;
 mod sweep_faults;
 mod teach;
+mod trust;
 mod view;
 
 pub use program::{Folder, GOOD, Said, cpdmp};

@@ -225,3 +225,14 @@ fn denied_warnings_are_faults() {
         assert!(error.starts_with("--deny-warnings: ") && error.contains("one demonstration"), "{error}");
     }
 }
+
+/// Contract: a window shorter than a logged step would silently be a longer one.
+#[test]
+fn a_mean_over_less_than_a_logged_step_is_refused() {
+    let text = format!("{GOOD}\n[[criterion]]\nname = \"blow\"\nkind = \"tool_force\"\nmean_over_s = 0.02\nmax_n = 100\n");
+    let folder = Folder::with(&[("a.toml", text.as_bytes())]);
+    assert_eq!(folder.call(&["validate", "a.toml"]).code, Some(0), "two logged steps");
+    let said = folder.call(&["validate", "a.toml", "--set", "simulation.log_rate_hz=10"]);
+    assert!(said.code == Some(3) && said.stderr.contains("0.02 s are shorter than a logged step"), "{}", said.stderr);
+    assert!(said.stderr.contains("a.toml:") && said.stderr.contains("0.1 s or longer"), "{}", said.stderr);
+}

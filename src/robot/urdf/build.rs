@@ -47,6 +47,7 @@ pub(super) fn build(
     }
     resolve_mimics(robot, &mut model)?;
     require_masses(&model, &tree.entries, findings);
+    warn_of_ghosts(&model, &tree.entries, findings);
     Some(model)
 }
 
@@ -169,6 +170,20 @@ fn resolve_mimics(robot: &Robot, model: &mut RobotModel) -> Option<()> {
         }
     }
     Some(())
+}
+
+/// What can be seen but not touched passes through everything.
+fn warn_of_ghosts(model: &RobotModel, entries: &BTreeMap<&str, &LinkEntry>, findings: &mut Findings) {
+    for joint in &model.joints {
+        let body = &model.bodies[joint.child_body];
+        if let Some(entry) = entries.get(body.name.as_str())
+            && body.collisions.is_empty()
+            && !body.visuals.is_empty()
+        {
+            let message = format!("moves on joint `{}`, but neither it nor what is fixed to it can touch anything", joint.name);
+            findings.warning(&entry.place, format!("link `{}`", body.name), message, "give it a <collision>");
+        }
+    }
 }
 
 fn require_masses(model: &RobotModel, entries: &BTreeMap<&str, &LinkEntry>, findings: &mut Findings) {

@@ -1,0 +1,87 @@
+//! What must not make a verdict green: files that changed, names that mean two things, questions about nothing, what a pattern leaves out.
+
+use std::fs;
+
+use cpdmp::report::lock_beside;
+use serde_json::Value;
+
+use super::{Folder, GOOD};
+
+const ROBOT: &str = include_str!("../../assets/baxter/baxter.urdf");
+
+/// The kinds of what a check looked at, and its exit code.
+fn kinds(folder: &Folder, paths: &[&str]) -> (Option<i32>, Vec<String>) {
+    let said = folder.call(&[&["check", "--format", "json", "-q"], paths].concat());
+    let report: Value = serde_json::from_str(&said.stdout).unwrap_or_default();
+    let checks = report["checks"].as_array().cloned().unwrap_or_default();
+    (said.code, checks.iter().map(|check| check["kind"].as_str().unwrap_or_default().to_owned()).collect())
+}
+
+/// Contract: a stored run is not judged with a robot that is another one than its own.
+#[test]
+fn a_run_whose_robot_has_changed_is_not_judged() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("r.urdf", ROBOT.as_bytes())]);
+    let said = folder.call(&["run", "a.toml", "--robot", "r.urdf", "--out", "out", "-q"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    assert_eq!(folder.call(&["check", "out", "-q"]).code, Some(0));
+    fs::write(folder.path().join("r.urdf"), format!("{ROBOT}<!-- longer -->\n")).expect("written");
+    let said = folder.call(&["check", "out", "-q"]);
+    assert!(said.code == Some(3) && said.stdout.contains("it has changed since the run"), "{}", said.stdout);
+}
+
+/// Contract: a name stands for one thing.
+#[test]
+fn an_object_is_not_called_as_a_link() {
+    let folder = Folder::with(&[("a.toml", GOOD.replace("\"toy\"", "\"left_wrist\"").as_bytes())]);
+    let said = folder.call(&["validate", "a.toml"]);
+    assert!(said.code == Some(3) && said.stderr.contains("object `left_wrist`: a link of the robot is called"), "{}", said.stderr);
+}
+
+/// Contract: a criterion about nothing is no criterion.
+#[test]
+fn a_criterion_about_no_object_is_refused() {
+    let empty = "\n[[criterion]]\nname = \"nothing\"\nkind = \"no_contact\"\nobjects = []\n";
+    let folder = Folder::with(&[("a.toml", format!("{GOOD}{empty}").as_bytes())]);
+    let said = folder.call(&["validate", "a.toml"]);
+    assert!(said.code == Some(3) && said.stderr.contains("it could not fail"), "{}", said.stderr);
+}
+
+/// Contract: a robot that can be seen but not touched is warned of: it would pass through everything.
+#[test]
+fn a_robot_that_touches_nothing_is_warned_of() {
+    let mut ghost = ROBOT.to_owned();
+    while let (Some(start), Some(end)) = (ghost.find("<collision"), ghost.find("</collision>")) {
+        ghost.replace_range(start..end + "</collision>".len(), "");
+    }
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("ghost.urdf", ghost.as_bytes()), ("r.urdf", ROBOT.as_bytes())]);
+    let said = folder.call(&["validate", "a.toml", "--robot", "ghost.urdf", "--deny-warnings"]);
+    assert!(said.code == Some(3) && said.stderr.contains("can touch anything"), "{}", said.stderr);
+    let said = folder.call(&["validate", "a.toml", "--robot", "r.urdf"]);
+    assert!(said.code == Some(0) && !said.stderr.contains("can touch anything"), "{}", said.stderr);
+}
+
+/// Contract: a pattern finds runs as their folder does, and a run that lost files is still one.
+#[test]
+fn runs_are_found_whatever_they_lost() {
+    let folder = Folder::with(&[("a.TOML", GOOD.as_bytes())]);
+    assert_eq!(folder.call(&["run", "a.TOML", "--out", "runs/one", "-q"]).code, Some(0));
+    assert_eq!(kinds(&folder, &["runs"]), (Some(0), vec!["run".to_owned()]));
+    assert_eq!(kinds(&folder, &["runs/o*"]), (Some(0), vec!["run".to_owned()]));
+    assert_eq!(kinds(&folder, &["."]), (Some(0), vec!["scenario".to_owned()]), "whatever case its ending has");
+    for lost in [&["manifest.json", "scenario.toml"][..], &["report.json"]] {
+        lost.iter().for_each(|name| fs::remove_file(folder.path().join("runs/one").join(name)).expect("removed"));
+        assert_eq!(kinds(&folder, &["runs"]), (Some(3), vec!["run".to_owned()]), "without {lost:?}");
+    }
+}
+
+/// Contract: two checks do not write one verdict.
+#[test]
+fn a_verdict_that_another_check_writes_is_left_to_it() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let held = lock_beside(&folder.path().join("v.xml")).expect("free");
+    let said = folder.call(&["check", "a.toml", "--junit", "v.xml"]);
+    assert!(said.code == Some(21) && said.stderr.contains("in use by"), "{:?} {}", said.code, said.stderr);
+    drop(held);
+    assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
+    assert_eq!(folder.names(), ["a.toml", "v.xml"], "no lock is left");
+}
