@@ -66,7 +66,6 @@ fn simulated(path: &Path, options: &LoadOptions, global: &Global, terminal: &Ter
             Checked::refused(name, "scenario", faults(&invalid.0), clock.elapsed_s())
         }
         Ok(scenario) => {
-            terminal.faults(&scenario.warnings);
             let mut run = judged_run(&scenario, &clock);
             run.report.warnings().for_each(|warning| terminal.note(&format!("{name}: warning: {warning}\n")));
             if global.deny_warnings {

@@ -28,7 +28,7 @@ pub struct CriterionReport {
     pub unit: Cow<'static, str>,
     /// How far the value is on the right side of the limit.
     pub margin: Option<f64>,
-    /// When it first failed (s).
+    /// When it first failed (s); `null` when it did not, or when that is not followed, as of a clearance.
     pub first_failed_time_s: Option<f64>,
     /// Where it was typed; `null` for one from the command line.
     pub place: Option<Place>,
