@@ -100,16 +100,22 @@ fn a_viewer_that_never_answers_does_not_delay_a_run() {
     let folder = with_viewer("exit 0");
     let silent = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = silent.local_addr().expect("its address").port().to_string();
-    let started = Instant::now();
-    let said = folder.call(&["run", "a.toml"]);
-    let alone = started.elapsed();
-    let started = Instant::now();
-    let watched = folder.call(&["run", "a.toml", "--viewer", "--viewer-program", "./viewer", "--viewer-port", &port]);
-    let longer = started.elapsed().saturating_sub(alone);
-    assert_eq!((said.code, watched.code), (Some(0), Some(0)), "{}", watched.stderr);
+    // The quickest of three says what it takes when the machine does little else.
+    let quickest = |flags: &[&str]| {
+        let runs = (0..3).map(|_| {
+            let started = Instant::now();
+            let said = folder.call(&[&["run", "a.toml"], flags].concat());
+            assert_eq!(said.code, Some(0), "{}", said.stderr);
+            (started.elapsed(), said.stdout.lines().last().map(str::to_string))
+        });
+        runs.min().expect("three")
+    };
+    let (alone, hash) = quickest(&[]);
+    let (watched, same) = quickest(&["--viewer", "--viewer-program", "./viewer", "--viewer-port", &port]);
+    let longer = watched.saturating_sub(alone);
     // As long again, for a machine that was busier the second time.
     assert!(longer < Duration::from_secs(2) + alone, "{longer:?} longer than {alone:?}");
-    assert_eq!(said.stdout.lines().last(), watched.stdout.lines().last(), "the same state hash");
+    assert_eq!(hash, same, "the same state hash");
 }
 
 /// Contract: a viewer that goes away while it is sent a run changes nothing about the run.
