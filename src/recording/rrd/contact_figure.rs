@@ -2,8 +2,9 @@
 
 use rerun::{LineStrips3D, Points3D};
 
+use super::camera::Camera;
 use super::convert;
-use super::entity_path::{CONTACT, NEAREST};
+use super::entity_path::{CONTACT, NEAREST, NEAREST_LABEL};
 use super::palette;
 use super::recorder::{Fault, Recorder};
 use crate::simulation::RunOutcome;
@@ -12,17 +13,22 @@ use crate::world::{ContactEpisode, NEAR_M, nearest_of_each};
 /// What happens in a moment is shown from so long before it to so long after it (s).
 const SHOWN_S: [f64; 2] = [0.4, 0.8];
 
-/// Logs contacts, and smallest distances that are near ones, when they happen.
-pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome) -> Result<(), Fault> {
-    for clearance in nearest_of_each(&outcome.clearances).into_iter().filter(|clearance| clearance.min_distance_m < NEAR_M) {
+/// Logs contacts, and smallest distances that are near ones, when they happen, in words above those of the active state.
+pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome, camera: &Camera) -> Result<(), Fault> {
+    let near = nearest_of_each(&outcome.clearances).into_iter().filter(|clearance| clearance.min_distance_m < NEAR_M);
+    for (index, clearance) in near.enumerate() {
         let entity = NEAREST.of(&[&clearance.b]);
-        let look = LineStrips3D::update_fields().with_colors([palette::TOUCH]).with_radii([0.003]).with_show_labels(true);
+        let look = LineStrips3D::update_fields().with_colors([palette::TOUCH]).with_radii([0.003]);
         recorder.always(entity.clone(), &look)?;
         let line = [convert::vector(&clearance.point_a.coords), convert::vector(&clearance.point_b.coords)];
-        let label = format!("{:.0} mm", clearance.min_distance_m * 1e3);
-        let shown = LineStrips3D::update_fields().with_strips([line]).with_labels([label]);
         let times = [(clearance.time_s - SHOWN_S[0]).max(0.0), clearance.time_s + SHOWN_S[1]];
-        recorder.at_times(entity, &times, shown.columns([1, 0])?)?;
+        recorder.at_times(entity, &times, LineStrips3D::update_fields().with_strips([line]).columns([1, 0])?)?;
+        let label = NEAREST_LABEL.of(&[&clearance.b]);
+        let look = Points3D::update_fields().with_colors([palette::TOUCH]).with_radii([0.0]).with_show_labels(true);
+        recorder.always(label.clone(), &look)?;
+        let text = format!("{} {:.0} mm from {}", clearance.a, clearance.min_distance_m * 1e3, clearance.b);
+        let words = Points3D::update_fields().with_positions([convert::vector(&camera.words(index + 1))]).with_labels([text]);
+        recorder.at_times(label, &times, words.columns([1, 0])?)?;
     }
     log_touches(recorder, &outcome.collisions)
 }

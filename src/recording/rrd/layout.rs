@@ -11,7 +11,9 @@ use super::axis_range::Ranges;
 use super::beside;
 use super::blueprint_property::Properties;
 use super::camera::Camera;
-use super::entity_path::{BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EXECUTED_PATH, Entity, FORCE_COLORS, SIM_TIME, TEACHING_PATH};
+use super::entity_path::{
+    BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EXECUTED_PATH, Entity, FORCE_COLORS, REPLAY_NAME, SIM_TIME, TEACHING_NAME, TEACHING_PATH,
+};
 use super::paths::AXES;
 use super::recorder::Fault;
 use super::views::{Views, motion_title};
@@ -86,11 +88,12 @@ fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> 
     Ok(Horizontal::new([left.into(), Vertical::new(right).with_row_shares(shares).into()]).with_column_shares(vec![1.25, 1.0]))
 }
 
-/// The coordinates, those for the large plots first: x and z, as in the paper, unless one of them hardly moves and y does.
+/// The coordinates, those for the large plots first: x and z, as in the paper, unless one of them hardly moves and y does; what moves comes first.
 fn axes(way_m: &Vector3<f64>) -> [&'static str; 3] {
     let moves = |axis: usize| way_m[axis] >= MOVES_M;
     match (moves(0), moves(1), moves(2)) {
-        (_, true, false) => ["x", "y", "z"],
+        (true, true, false) => ["x", "y", "z"],
+        (false, true, false) => ["y", "x", "z"],
         (false, true, true) => ["y", "z", "x"],
         _ => ["x", "z", "y"],
     }
@@ -120,20 +123,25 @@ fn more(views: &mut Views, [first, second, third]: [&str; 3], shown: &Shown<'_>)
     }
     if !shown.beside.is_empty() {
         // The comparison is what such a scenario is about.
-        tabs.splice(0..0, compared(views)?);
+        tabs.splice(0..0, compared(views, shown.beside)?);
     }
     Ok(tabs)
 }
 
-/// Forces of the run and of everything beside it: how far they are from what was expected, and as they were measured.
-fn compared(views: &mut Views) -> Result<[ContainerLike; 2], Fault> {
+/// Forces of the run and of everything beside it: how far they are from what was expected, if something beside it expects any, and as they were
+/// measured.
+fn compared(views: &mut Views, beside: &[Beside]) -> Result<Vec<ContainerLike>, Fault> {
     let mut page = |name: &str, key: &Entity, origin: &str| -> Result<ContainerLike, Fault> {
         let plot = |axis: &&str| Ok(views.plot(&format!("{axis} (N)"), &format!("plots/beside/{origin}/{axis}"))?.into());
         let plots: Vec<ContainerLike> = AXES.iter().map(plot).collect::<Result<_, Fault>>()?;
         let key = TextDocumentView::new("Key").with_origin(key.pattern);
         Ok(Horizontal::new([Horizontal::new(plots).into(), key.into()]).with_name(name).with_column_shares(vec![4.6, 1.0]).into())
     };
-    Ok([page("Force errors", &ERROR_COLORS, "force_error")?, page("Forces", &BESIDE_COLORS, "force")?])
+    let mut pages = vec![page("Forces compared", &BESIDE_COLORS, "force")?];
+    if beside.iter().any(|one| one.outcome.skill.force.is_some()) {
+        pages.insert(0, page("Force errors", &ERROR_COLORS, "force_error")?);
+    }
+    Ok(pages)
 }
 
 /// The lessons: the scene at the left; motion, person and gripper at the right.
@@ -146,19 +154,26 @@ fn teaching(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> {
         taught(second)?.into(),
         views.plot("Force of the person (N)", "teaching_plots/person")?.into(),
         views.plot("Gripper: 0 closed, 1 open", "teaching_plots/gripper")?.into(),
-        StateTimelineView::new("Demonstration").with_origin("/teaching_lanes").into(),
+        demonstration("/teaching_lanes", TEACHING_NAME.pattern).into(),
     ];
     let right = Vertical::new(right).with_row_shares(vec![1.0, 1.0, 1.0, 0.7, 0.6]);
     Ok(Horizontal::new([scene.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
 }
 
+/// Which demonstration it is: its number over time, and the name of the one at the cursor, for which a lane has no room.
+fn demonstration(lane: &str, name: &str) -> Horizontal {
+    let number = StateTimelineView::new("Number of the demonstration").with_origin(lane);
+    let name = TextDocumentView::new("Its name").with_origin(name);
+    Horizontal::new([number.into(), name.into()]).with_column_shares(vec![1.6, 1.0])
+}
+
 /// The replays: what the arm felt, per axis.
 fn replay(views: &mut Views) -> Result<Vertical, Fault> {
     let plots: [ContainerLike; 4] = [
-        views.plot("Measured force x (N)", "replay_plots/force/x")?.into(),
-        views.plot("Measured force y (N)", "replay_plots/force/y")?.into(),
-        views.plot("Measured force z (N)", "replay_plots/force/z")?.into(),
-        StateTimelineView::new("Demonstration").with_origin("/replay_lanes").into(),
+        views.high_plot("Measured force x (N)", "replay_plots/force/x")?.into(),
+        views.high_plot("Measured force y (N)", "replay_plots/force/y")?.into(),
+        views.high_plot("Measured force z (N)", "replay_plots/force/z")?.into(),
+        demonstration("/replay_lanes", REPLAY_NAME.pattern).into(),
     ];
     Ok(Vertical::new(plots).with_row_shares(vec![1.0, 1.0, 1.0, 0.5]))
 }
