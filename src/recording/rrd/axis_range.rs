@@ -58,10 +58,13 @@ fn shown([mut low, mut high]: [f64; 2], least_step: f64) -> [f64; 2] {
     let [down, up] = [(low / step).floor() * step, (high / step).ceil() * step];
     let written = (high / step).floor() - (low / step).ceil() + 1.0;
     let near = 1.5 * SPACE * (high - low);
-    if written < 1.0 || (written < 2.0 && low - down <= up - high) || low - down < near {
+    let [below, above] = [low - down, up - high];
+    // Of two numbers that could be the second one, the nearer.
+    let to_low = written < 2.0 && below > 0.0 && (below <= above || above <= 0.0);
+    if written < 1.0 || to_low || below < near {
         low = down;
     }
-    if written < 1.0 || (written < 2.0 && low > down) || up - high < near {
+    if written < 1.0 || (written < 2.0 && !to_low) || above < near {
         high = up;
     }
     let space = SPACE * (high - low);
@@ -74,7 +77,18 @@ mod tests {
 
     #[test]
     fn two_numbers_are_written_and_everything_is_inside() {
-        for range in [[-0.113, -0.058], [0.0, 9.6], [0.51, 0.83], [2.1, 2.9], [0.0, 0.0], [5.0, 5.0], [-3e-6, 1e-6], [-40.0, 61.0]] {
+        for range in [
+            [-0.113, -0.058],
+            [0.0, 9.6],
+            [0.0, 7.7],
+            [-7.7, 0.0],
+            [0.51, 0.83],
+            [2.1, 2.9],
+            [0.0, 0.0],
+            [5.0, 5.0],
+            [-3e-6, 1e-6],
+            [-40.0, 61.0],
+        ] {
             for least_step in [LEAST_STEP, LEAST_STEP_OF_LOW, LEAST_STEP_OF_HIGH] {
                 let [low, high] = shown(range, least_step);
                 assert!(low < range[0] && high > range[1], "{range:?}: {low} … {high}");

@@ -16,11 +16,12 @@ use super::entity_path::{
 };
 use super::paths::AXES;
 use super::recorder::Fault;
-use super::views::{Views, motion_title};
+use super::views::Views;
 use crate::simulation::Beside;
 
 /// Titles stand where a legend would cover what is drawn.
 const PATHS: &str = "Taught grey, planned blue, executed orange";
+const PATHS_OF_BASELINE: &str = "Taught grey, planned by the LWR-DMP blue, executed orange";
 const BASELINE: &str = ", LWR-DMP black";
 const PERSON: &str = "; person vermilion";
 
@@ -67,8 +68,10 @@ pub(super) fn layout(shown: &Shown<'_>, ranges: &Ranges, play: PlayState) -> Res
 /// The scene with the events at the left; motion, forces, compliance and lanes at the right.
 fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> {
     let others = beside::for_title(shown.beside);
+    // Only the baseline has no states.
+    let paths = if shown.states.is_some() { PATHS } else { PATHS_OF_BASELINE };
     let parts =
-        [(PATHS, true), (&others, true), (BASELINE, shown.baseline), (shown.states.unwrap_or_default(), true), (PERSON, shown.person)];
+        [(paths, true), (&others, true), (BASELINE, shown.baseline), (shown.states.unwrap_or_default(), true), (PERSON, shown.person)];
     let title: String = parts.into_iter().filter_map(|(part, told)| told.then_some(part)).collect();
     let growing = std::iter::once(EXECUTED_PATH.path()).chain(shown.beside.iter().map(|one| BESIDE_PATH.of(&[&one.name])));
     let scene = views.scene(&title, "/world", growing, shown)?;
@@ -112,11 +115,10 @@ fn more(views: &mut Views, [first, second, third]: [&str; 3], shown: &Shown<'_>)
     let forcing = [first, second].map(|axis| (format!("Forcing {axis} (m)"), format!("plots/forcing/{axis}")));
     let forcing = side_by_side("Forcing", &forcing.each_ref().map(|(title, origin)| (title.as_str(), origin.as_str())))?;
     let coupling = side_by_side("Coupling", &[("Displacement (m): x orange, y green, z blue", "plots/coupling")])?;
-    let gripper = side_by_side("Gripper", &[("0 closed, 1 open: commanded blue, measured orange", "plots/gripper")])?;
-    let motion = side_by_side(
-        &format!("Motion {third}"),
-        &[(&motion_title(third, &beside::for_title(shown.beside)), &format!("plots/motion/{third}"))],
-    )?;
+    let motion = views.motion(third, &beside::for_title(shown.beside))?;
+    let motion = Horizontal::new([motion.into()]).with_name(format!("Motion {third}"));
+    let gripper = views.fraction_plot("0 closed, 1 open: commanded blue, measured orange", "plots/gripper")?;
+    let gripper = Horizontal::new([gripper.into()]).with_name("Gripper");
     let mut tabs: Vec<ContainerLike> = vec![force.into(), forcing.into(), coupling.into(), gripper.into(), motion.into()];
     if shown.person {
         tabs.insert(1, person.into());
@@ -148,12 +150,12 @@ fn compared(views: &mut Views, beside: &[Beside]) -> Result<Vec<ContainerLike>, 
 fn teaching(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> {
     let scene = views.scene("Teaching: a person (vermilion) leads the weightless arm", "/teaching", [TEACHING_PATH.path()], shown)?;
     let [first, second, _] = axes(&shown.way_m);
-    let mut taught = |axis: &str| views.plot(&format!("Taught {axis} (m)"), &format!("teaching_plots/motion/{axis}"));
+    let mut taught = |axis: &str| views.coordinate(&format!("Taught {axis} (m)"), &format!("teaching_plots/motion/{axis}"));
     let right: [ContainerLike; 5] = [
         taught(first)?.into(),
         taught(second)?.into(),
         views.plot("Force of the person (N)", "teaching_plots/person")?.into(),
-        views.plot("Gripper: 0 closed, 1 open", "teaching_plots/gripper")?.into(),
+        views.fraction_plot("Gripper: 0 closed, 1 open", "teaching_plots/gripper")?.into(),
         demonstration("/teaching_lanes", TEACHING_NAME.pattern).into(),
     ];
     let right = Vertical::new(right).with_row_shares(vec![1.0, 1.0, 1.0, 0.7, 0.6]);
