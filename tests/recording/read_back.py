@@ -32,7 +32,9 @@ def series(recording: Path, timeline: str, component: str) -> dict[str, tuple[np
     parts: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {}
     for chunk in RrdReader(str(recording)).stream():
         batch = chunk.to_record_batch()
-        if chunk.is_static or not {timeline, component} <= set(batch.schema.names):
+        # Outlines have several values per row, and no column of the log.
+        compared = any(chunk.entity_path == entity for entity, _ in SERIES)
+        if not compared or chunk.is_static or not {timeline, component} <= set(batch.schema.names):
             continue
         times = np.array(batch.column(timeline).cast("int64"))
         values = np.array(batch.column(component).flatten())
