@@ -13,8 +13,8 @@ pub(super) type Named = (&'static str, Figure);
 
 /// The figures of an arm's run. Those that a skill has nothing for, such as states of one without states, are left out.
 pub(super) fn of_arm(run: &ArmRun) -> Result<Vec<Named>, LearningError> {
-    let mut figures = vec![("motion", arm_motion(run)), ("compliance", arm_compliance(run)), ("forcing", arm_forcing(run)?)];
-    figures.extend(arm_forces(run).map(|figure| ("forces", figure)));
+    let mut figures =
+        vec![("motion", arm_motion(run)), ("compliance", arm_compliance(run)), ("forces", arm_forces(run)), ("forcing", arm_forcing(run)?)];
     figures.extend(arm_paths(run).map(|figure| ("paths", figure)));
     figures.extend(arm_settings(run)?.map(|figure| ("forcing_settings", figure)));
     figures.extend(arm_states(run)?.map(|figure| ("states", figure)));

@@ -40,13 +40,16 @@ pub fn arm_forcing(run: &ArmRun) -> Result<Figure, LearningError> {
     Ok(Figure { title: format!("Forcing term: {}", run.name), panels, columns: 1, panel_size_pt: PANEL_PT })
 }
 
+/// Forcing is drawn over at least this range (m or rad).
+const LEAST_RANGE: f64 = 0.01;
+
 /// An empty panel for the forcing along column `j` of the motion.
 pub(super) fn panel_of(motion: &MotionModel, j: usize) -> Chart {
     let input = match motion.phase_input {
         PhaseInput::TimeFraction => "phase input u = -ln(s)/alpha (-)",
         PhaseInput::Phase => "phase s (-)",
     };
-    Chart::plot("", [Axis::new(input), Axis::new(&format!("forcing along {}", labelled(&motion.columns[j])))])
+    Chart::plot("", [Axis::new(input), Axis::at_least(&format!("forcing along {}", labelled(&motion.columns[j])), LEAST_RANGE)])
 }
 
 /// What a demonstration demands along column `j` (4).

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::arm_run::{ArmRun, Curve, DEVIATIONS, kind_of, over_time};
+use super::arm_run::{ArmRun, Curve, DEVIATIONS, EXECUTED_PT, OTHERS_PT, PLANNED_PT, kind_of, over_time};
 use super::chart::{Axis, Chart, Figure};
 use super::mark::Mark;
 use crate::learning::TaskSpaceState;
@@ -11,7 +11,7 @@ use crate::palette::meaning::{EXECUTED, PLANNED, TAUGHT};
 /// Width and height of a panel (pt).
 const PANEL_PT: [f64; 2] = [600.0, 220.0];
 /// A coordinate is drawn over at least this range (m).
-const LEAST_RANGE_M: f64 = 0.005;
+const LEAST_RANGE_M: f64 = 0.02;
 /// Points of an outline.
 const POINTS: usize = 80;
 /// The axes of the robot's base frame, with what they are called.
@@ -28,27 +28,17 @@ pub fn arm_motion(run: &ArmRun) -> Figure {
 fn panel(run: &ArmRun, axis: usize) -> Chart {
     let (name, title) = AXES[axis];
     let column = format!("{name}_m");
-    let mut chart = Chart::plot(title, [Axis::new("time (s)"), Axis::new(&format!("{name} (m)"))]);
-    if let Some(axes) = &mut chart.axes {
-        axes[1].includes = least_range(run.steps.iter().map(|step| step.tool.translation.vector[axis]));
-    }
+    let mut chart = Chart::plot(title, [Axis::new("time (s)"), Axis::at_least(&format!("{name} (m)"), LEAST_RANGE_M)]);
     chart.marks.extend(run.compliant_windows());
     chart.marks.extend(run.taught(&column).into_iter().map(|taught| Mark::line("taught", TAUGHT, 0.6, taught)));
     let of_column = run.skill.motion.columns.iter().position(|known| *known == column);
     if let (Some(of_column), Some(planned)) = (of_column, run.planned(&column)) {
         chart.marks.extend(run.states.iter().map(|state| ellipse(run, state, of_column, &planned)));
-        chart.marks.push(Mark::line("planned", PLANNED, 1.6, planned));
+        chart.marks.push(Mark::line("planned", PLANNED, PLANNED_PT, planned));
     }
-    chart.marks.extend(run.others(|steps| Some(over_time(steps, |step| step.tool.translation.vector[axis]))));
-    chart.marks.push(Mark::line("executed", EXECUTED, 1.6, run.executed(|step| step.tool.translation.vector[axis])));
+    chart.marks.extend(run.others(OTHERS_PT, |steps| Some(over_time(steps, |step| step.tool.translation.vector[axis]))));
+    chart.marks.push(Mark::line("executed", EXECUTED, EXECUTED_PT, run.executed(|step| step.tool.translation.vector[axis])));
     chart
-}
-
-/// The ends of the least stretch of an axis around these coordinates (m): noise of a coordinate that stands still is no motion.
-fn least_range(coordinates: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
-    let (low, high) = (coordinates.clone().fold(f64::INFINITY, f64::min), coordinates.fold(f64::NEG_INFINITY, f64::max));
-    let middle = 0.5 * (low + high);
-    vec![middle - 0.5 * LEAST_RANGE_M, middle + 0.5 * LEAST_RANGE_M]
 }
 
 /// The outline of a state, carried along the planned coordinate `m`: `x = m(t) + k sigma_x sin(a)` at `t = t_i + k sigma_t cos(a)`. Its

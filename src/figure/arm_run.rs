@@ -9,15 +9,21 @@ use crate::learning::{ExecutionSettings, LearningError, LearningSettings, Skill,
 use crate::palette::Rgb;
 use crate::palette::meaning::{BESIDE, COMPLIES, MINIMISES, STIFF};
 use crate::simulation::{StepRecord, skill_duration_s};
-use crate::world::{Object, ObjectKind, Parameters, door_turn, support_height_m};
+use crate::world::{Object, Parameters};
 
+use super::arc::Arc;
 use super::mark::Mark;
 
 /// Samples of a taught or planned movement that are drawn.
 const DRAWN_SAMPLES: usize = 400;
 
-/// Points of an arc.
-const ARC_POINTS: usize = 61;
+/// Widths of lines (pt): what was executed lies on what stands beside it, and that on the plan, and each is seen.
+pub(super) const PLANNED_PT: f64 = 2.9;
+pub(super) const OTHERS_PT: f64 = 2.1;
+pub(super) const EXECUTED_PT: f64 = 1.4;
+
+/// Plans that are nowhere further apart (m) are drawn once.
+const SAME_PLAN_M: f64 = 1e-3;
 
 /// Ellipses are drawn at this many standard deviations: 95 % of a Gaussian in one dimension.
 pub(super) const DEVIATIONS: f64 = 2.0;
@@ -45,12 +51,15 @@ pub struct ArmRun<'a> {
     pub(super) states: Vec<TaskSpaceState>,
     /// What was executed beside it, each with its name.
     pub(super) beside: Vec<(&'a str, &'a [StepRecord])>,
-    /// Ways on which doors of the scene lead their handles in use (m, world).
-    pub(super) arcs: Vec<Vec<Point3<f64>>>,
+    /// Ways on which doors of the scene lead their handles in use.
+    pub(super) arcs: Vec<Arc>,
 }
 
 /// A movement along one axis: times (s) and values.
 pub(super) type Curve = Vec<[f64; 2]>;
+
+/// When (s), and where the tool is to be (m, world).
+pub(super) type Moment = (f64, Point3<f64>);
 
 impl<'a> ArmRun<'a> {
     /// The run called `name` with these records, of a skill that was learned from `dataset` and asked `question`.
@@ -73,7 +82,7 @@ impl<'a> ArmRun<'a> {
     /// The same in a scene of `objects`, of which a figure shows where its doors lead.
     #[must_use]
     pub fn in_scene(mut self, objects: &[Object], parameters: &Parameters) -> Self {
-        self.arcs = objects.iter().filter_map(|object| handle_arc(object, objects, parameters)).collect();
+        self.arcs = objects.iter().filter_map(|object| Arc::of(object, objects, parameters)).collect();
         self
     }
 
@@ -83,12 +92,23 @@ impl<'a> ArmRun<'a> {
         Self { beside: others, ..self }
     }
 
-    /// What stands beside the run as lines: `points` of its records, in its colour, under its name; none where those are none.
-    pub(super) fn others(&self, points: impl Fn(&[StepRecord]) -> Option<Curve>) -> impl Iterator<Item = Mark> {
+    /// What stands beside the run as lines of a width (pt): `points` of its records, in its colour, under its name; none where those are none.
+    pub(super) fn others(&self, width_pt: f64, points: impl Fn(&[StepRecord]) -> Option<Curve>) -> impl Iterator<Item = Mark> {
         let line = move |(index, (name, steps)): (usize, &(&str, &[StepRecord]))| {
-            Some(Mark::line(name, BESIDE[index % BESIDE.len()].0, 1.1, points(steps)?))
+            Some(Mark::line(name, BESIDE[index % BESIDE.len()].0, width_pt, points(steps)?))
         };
         self.beside.iter().enumerate().filter_map(line)
+    }
+
+    /// The plans of what stands beside the run, each with its name and colour, at the times (s) and places (m, world) of its records; none of one
+    /// that plans as the run does.
+    pub(super) fn other_plans(&self) -> impl Iterator<Item = (String, Rgb, Vec<Moment>)> {
+        let own = plan_of(self.steps);
+        self.beside.iter().enumerate().filter_map(move |(index, (name, steps))| {
+            let plan = plan_of(steps);
+            let same = |(own, other): (&Moment, &Moment)| (own.1 - other.1).norm() < SAME_PLAN_M;
+            (!own.iter().zip(&plan).all(same)).then(|| (format!("{name}, planned"), BESIDE[index % BESIDE.len()].0, plan))
+        })
     }
 
     /// The plan along a column; nothing when the skill does not move it.
@@ -130,6 +150,11 @@ impl<'a> ArmRun<'a> {
     }
 }
 
+/// Where a plan has the tool: where the controller wants it, without what forces have moved that (s; m, world).
+fn plan_of(steps: &[StepRecord]) -> Vec<Moment> {
+    steps.iter().map(|step| (step.time_s, Point3::from(step.reference.translation.vector - step.deviation))).collect()
+}
+
 /// A value of every record over time.
 pub(super) fn over_time(steps: &[StepRecord], value: impl Fn(&StepRecord) -> f64) -> Curve {
     steps.iter().map(|step| [step.time_s, value(step)]).collect()
@@ -141,15 +166,6 @@ fn coupled(mut states: Vec<TaskSpaceState>, question: &ExecutionSettings) -> Res
     let betas = question.coupling.beta(&learned)?;
     states.iter_mut().zip(betas).for_each(|(state, beta)| state.beta = beta);
     Ok(states)
-}
-
-/// The arc of a cabinet's handle in use about the hinge, from the closed door to the open one (m, world).
-fn handle_arc(object: &Object, objects: &[Object], parameters: &Parameters) -> Option<Vec<Point3<f64>>> {
-    let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
-    let hinge = object.pose(parameters, support_height_m(objects, object, parameters));
-    let handle = cabinet.handle(hinge.translation.y, parameters);
-    let opening = |k: usize| cabinet.opening_max_rad * k as f64 / (ARC_POINTS - 1) as f64;
-    Some((0..ARC_POINTS).map(|k| hinge * (door_turn(opening(k)) * handle)).collect())
 }
 
 /// The colour of a state, and what the legend calls it.

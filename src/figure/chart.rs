@@ -35,13 +35,21 @@ pub struct Axis {
     pub label: String,
     /// Values that must be in its range, if they are not already.
     pub includes: Vec<f64>,
+    /// Its range is at least so long, around the middle of what is in it: noise of something that stands still is no motion.
+    pub least_range: f64,
 }
 
 impl Axis {
+    /// An axis that is at least so long.
+    #[must_use]
+    pub fn at_least(label: &str, least_range: f64) -> Self {
+        Self { least_range, ..Self::new(label) }
+    }
+
     /// An axis whose range is that of its marks.
     #[must_use]
     pub fn new(label: &str) -> Self {
-        Self { label: label.to_owned(), includes: Vec::new() }
+        Self { label: label.to_owned(), includes: Vec::new(), least_range: 0.0 }
     }
 }
 

@@ -16,7 +16,10 @@ pub(super) fn extent(chart: &Chart, plot_size: [f64; 2]) -> Option<[[f64; 2]; 2]
     if ranges.iter().any(|[low, high]| low > high) {
         return None;
     }
-    for range in &mut ranges {
+    for (range, axis) in ranges.iter_mut().zip([0, 1]) {
+        let least = chart.axes.as_ref().map_or(0.0, |axes| axes[axis].least_range);
+        let missing = (least - (range[1] - range[0])).max(0.0);
+        *range = [range[0] - missing / 2.0, range[1] + missing / 2.0];
         let width = range[1] - range[0];
         // A range of nothing still needs two ends.
         let space = if width > 0.0 { SPACE * width } else { range[0].abs().max(1.0) * 0.5 };
@@ -53,6 +56,16 @@ mod tests {
             let scales = [(x[1] - x[0]) / 400.0, (y[1] - y[0]) / 100.0];
             assert_eq!((scales[0] - scales[1]).abs() < 1e-12, equal_aspect, "{scales:?}");
         }
+    }
+
+    #[test]
+    fn noise_is_drawn_over_a_range_that_is_long_enough() {
+        let noise = vec![[0.0, 2.0], [1.0, 2.000_001]];
+        let mut drawn = chart(false, noise);
+        drawn.axes = Some([Axis::new("t (s)"), Axis::at_least("y (m)", 0.01)]);
+        let [x, y] = extent(&drawn, [400.0, 100.0]).expect("marks");
+        assert!((y[1] - y[0] - 0.01 * (1.0 + 2.0 * SPACE)).abs() < 1e-12 && (0.5 * (y[0] + y[1]) - 2.000_000_5).abs() < 1e-12, "{y:?}");
+        assert!((x[1] - x[0] - (1.0 + 2.0 * SPACE)).abs() < 1e-12, "{x:?}");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! A [`Figure`] is plain data: panels of marks in the units of their axes, and one legend for all. [`svg()`] draws it. Text stays text and no
 //! font is needed to draw it; nothing lies outside of the page. With the feature `png`, a picture is made of the drawing. Colours are those of [`crate::palette`].
 
+mod arc;
 mod arm_compliance;
 mod arm_forces;
 mod arm_forcing;

@@ -43,7 +43,8 @@ fn of_width<'a>(curves: &[&'a ForcingCurve], half_width_m: f64) -> Vec<&'a Forci
     curves.iter().copied().filter(|curve| curve.half_width_m() == Some(half_width_m)).collect()
 }
 
-/// Ellipses behind, what was demonstrated on them, and the model's lines on top: the dashes of new situations let taught ones be seen.
+/// Ellipses behind, what was demonstrated on them, and the model's lines on top: dashed for taught situations, as in paths, which lets what they
+/// lie on be seen.
 fn panel(name: &str, axis: usize, method: Method, own: &[&ForcingCurve], demonstrated: &[&ForcingCurve]) -> Chart {
     let mut chart = Chart::plot("", [Axis::new("phase input (-)"), Axis::new(&format!("forcing along {name} (m)"))]);
     let points = |curve: &ForcingCurve| curve.phase.iter().zip(&curve.forcing_m).map(|(u, f)| [*u, f[axis]]).collect();
@@ -55,10 +56,10 @@ fn panel(name: &str, axis: usize, method: Method, own: &[&ForcingCurve], demonst
     });
     chart.marks.extend(outlines);
     chart.marks.extend(demonstrated.iter().map(|curve| Mark::line("demonstrated", GREY, 0.8, points(curve))));
-    for taught in [true, false] {
+    for taught in [false, true] {
         let lines = own.iter().filter(|curve| curve.taught == taught).map(|curve| {
             let (name, color) = look(curve, method);
-            let draw = if taught { Mark::line } else { Mark::dashes };
+            let draw = if taught { Mark::dashes } else { Mark::line };
             draw(&name, color, 1.2, points(curve))
         });
         chart.marks.extend(lines);

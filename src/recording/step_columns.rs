@@ -19,6 +19,8 @@ pub(super) enum StepValue {
     Integer(fn(&StepRecord) -> i64),
     /// A real number.
     Real(Box<dyn Fn(&StepRecord) -> f64>),
+    /// A real number that a force model expects: none without one.
+    Expected(fn(&StepRecord) -> f64),
 }
 
 /// The columns of the step log of an arm with `joints` joints in a scene of these objects, in the order of the file.
@@ -40,7 +42,9 @@ pub fn step_columns(joints: usize, objects: &[&str]) -> Vec<StepColumn> {
     table.vector("torque", "_nm", "torque of the environment about the tool, as the controller estimates it", |r| {
         r.wrench.fixed_rows::<3>(3).into()
     });
-    table.vector("expected_force", "_n", "force that the force model expects", |r| r.expected_force);
+    table.expected("x", |r| r.expected_force.x);
+    table.expected("y", |r| r.expected_force.y);
+    table.expected("z", |r| r.expected_force.z);
     table.vector("coupling", "_m", "displacement zeta/K that the coupling term asks for", |r| r.coupling_displacement);
     table.vector("deviation", "_m", "how far forces have moved the reference from the plan", |r| r.deviation);
     table.real("phase", "phase s of the canonical system, from 1 towards 0", |r| r.phase);
@@ -70,6 +74,12 @@ impl Table {
 
     fn real(&mut self, name: &str, meaning: &str, value: impl Fn(&StepRecord) -> f64 + 'static) {
         self.0.push(StepColumn { name: name.into(), meaning: meaning.into(), value: StepValue::Real(Box::new(value)) });
+    }
+
+    /// `expected_force_x_n` and so on.
+    fn expected(&mut self, axis: &str, value: fn(&StepRecord) -> f64) {
+        let meaning = format!("force that the force model expects, {axis}; null for a skill without one");
+        self.0.push(StepColumn { name: format!("expected_force_{axis}_n"), meaning, value: StepValue::Expected(value) });
     }
 
     /// `q1_rad`, `q2_rad` …

@@ -8,7 +8,7 @@ use parquet::errors::ParquetError;
 
 use super::RecordingError;
 use super::step_columns::{StepColumn, StepValue, step_columns};
-use super::table_file::{self, Column, Kind, write_next};
+use super::table_file::{self, Column, Kind, write_next, write_next_or_none};
 use crate::simulation::RunOutcome;
 
 /// Version of the step log's columns, under the key `cpdmp.version` of the file.
@@ -18,7 +18,7 @@ pub const STEP_LOG_VERSION: u32 = 1;
 const ROWS_PER_GROUP: usize = 1 << 16;
 
 /// Writes the steps of `outcome` to a Parquet file: [`step_columns`] as its columns, what each means under the file's keys
-/// `column.NAME`. Equal outcomes give equal bytes.
+/// `column.NAME`. What a skill without a force model expects is null. Equal outcomes give equal bytes.
 ///
 /// # Errors
 /// When the file cannot be created or written.
@@ -39,6 +39,10 @@ fn write(file: File, outcome: &RunOutcome) -> Result<(), ParquetError> {
             match &column.value {
                 StepValue::Integer(value) => write_next::<Int64Type>(&mut group, &rows.iter().map(value).collect::<Vec<_>>())?,
                 StepValue::Real(value) => write_next::<DoubleType>(&mut group, &rows.iter().map(value).collect::<Vec<_>>())?,
+                StepValue::Expected(value) => {
+                    let values: Option<Vec<f64>> = outcome.skill.force.is_some().then(|| rows.iter().map(value).collect());
+                    write_next_or_none(&mut group, rows.len(), values.as_deref())?;
+                }
             }
         }
         group.close()?;
@@ -51,5 +55,6 @@ fn kind(column: &StepColumn) -> Kind {
     match column.value {
         StepValue::Integer(_) => Kind::Integer,
         StepValue::Real(_) => Kind::Real,
+        StepValue::Expected(_) => Kind::RealOrNone,
     }
 }

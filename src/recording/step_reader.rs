@@ -50,7 +50,8 @@ fn record(table: &StepTable, row: usize, objects: &[String]) -> Result<StepRecor
         tool: table.pose(row, "tool")?,
         reference: table.pose(row, "reference")?,
         wrench: Vector6::from_iterator(force.iter().chain(torque.iter()).copied()),
-        expected_force: vector("expected_force", "_n")?,
+        // Nothing without a force model.
+        expected_force: if table.is_null("expected_force_x_n") { Vector3::zeros() } else { vector("expected_force", "_n")? },
         coupling_displacement: vector("coupling", "_m")?,
         deviation: vector("deviation", "_m")?,
         phase: real("phase")?,

@@ -54,6 +54,11 @@ impl StepTable {
         self.reals.get(name).and_then(|values| values.get(row)).copied().ok_or_else(|| name.to_owned())
     }
 
+    /// Whether a column of real numbers has none in any row.
+    pub fn is_null(&self, name: &str) -> bool {
+        self.reals.get(name).is_some_and(Vec::is_empty)
+    }
+
     /// `{prefix}1{unit}`, `{prefix}2{unit}` … as far as they go.
     pub fn joints(&self, row: usize, prefix: &str, unit: &str) -> Vec<f64> {
         (1..).map_while(|joint| self.real(row, &format!("{prefix}{joint}{unit}")).ok()).collect()
@@ -73,7 +78,8 @@ impl StepTable {
     }
 }
 
+/// Appends the values of the rows that have one.
 fn append<T: DataType>(mut column: ColumnReaderImpl<T>, rows: usize, values: &mut Vec<T::T>) -> Result<(), ParquetError> {
-    column.read_records(rows, None, None, values)?;
+    column.read_records(rows, Some(&mut Vec::new()), None, values)?;
     Ok(())
 }

@@ -1,10 +1,11 @@
-//! What the Parquet files of a run have in common: named columns with a meaning each, a format with a version, values without gaps.
+//! What the Parquet files of a run have in common: named columns with a meaning each, a format with a version. A column has a value in every
+//! row, or, where it may, in none.
 
 use std::fs::File;
 use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::DataType;
+use parquet::data_type::{DataType, DoubleType};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
@@ -16,6 +17,8 @@ use parquet::schema::types::Type;
 pub(super) enum Kind {
     Integer,
     Real,
+    /// A real number in every row or in none.
+    RealOrNone,
     Text,
 }
 
@@ -29,20 +32,36 @@ pub(super) fn open(file: File, row: &str, version: u32, columns: &[Column<'_>]) 
 
 /// Writes the next column of a group of rows.
 pub(super) fn write_next<T: DataType>(group: &mut SerializedRowGroupWriter<'_, File>, values: &[T::T]) -> Result<(), ParquetError> {
-    let missing = || ParquetError::General("the schema has fewer columns than a row".to_owned());
     let mut column = group.next_column()?.ok_or_else(missing)?;
     column.typed::<T>().write_batch(values, None, None)?;
     column.close()
+}
+
+/// Writes the next column, one that may have no values: these, or null in each of `rows` rows.
+pub(super) fn write_next_or_none(
+    group: &mut SerializedRowGroupWriter<'_, File>,
+    rows: usize,
+    values: Option<&[f64]>,
+) -> Result<(), ParquetError> {
+    let mut column = group.next_column()?.ok_or_else(missing)?;
+    let defined = vec![i16::from(values.is_some()); rows];
+    column.typed::<DoubleType>().write_batch(values.unwrap_or_default(), Some(&defined), None)?;
+    column.close()
+}
+
+fn missing() -> ParquetError {
+    ParquetError::General("the schema has fewer columns than a row".to_owned())
 }
 
 fn schema(row: &str, columns: &[Column<'_>]) -> Result<Arc<Type>, ParquetError> {
     let field = |(name, _, kind): &Column<'_>| {
         let (physical, logical) = match kind {
             Kind::Integer => (Physical::INT64, None),
-            Kind::Real => (Physical::DOUBLE, None),
+            Kind::Real | Kind::RealOrNone => (Physical::DOUBLE, None),
             Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         };
-        let builder = Type::primitive_type_builder(name, physical).with_repetition(Repetition::REQUIRED).with_logical_type(logical);
+        let repetition = if *kind == Kind::RealOrNone { Repetition::OPTIONAL } else { Repetition::REQUIRED };
+        let builder = Type::primitive_type_builder(name, physical).with_repetition(repetition).with_logical_type(logical);
         Ok(Arc::new(builder.build()?))
     };
     let fields = columns.iter().map(field).collect::<Result<_, ParquetError>>()?;

@@ -111,7 +111,7 @@ fn figures_are_drawn_again_from_the_folder_alone() {
 /// The files of a run's figures: drawings and, with the feature `png`, pictures.
 fn figure_files() -> Vec<String> {
     let kinds: &[&str] = if cfg!(feature = "png") { &["png", "svg"] } else { &["svg"] };
-    let figures = ["compliance", "forcing", "forcing_settings", "motion", "paths", "states"];
+    let figures = ["compliance", "forces", "forcing", "forcing_settings", "motion", "paths", "states"];
     let mut files: Vec<String> = figures.iter().flat_map(|name| kinds.iter().map(move |kind| format!("{name}.{kind}"))).collect();
     files.sort();
     files

@@ -10,7 +10,7 @@ use cpdmp::learning::cpdmp::{CouplingMode, CouplingSettings};
 use cpdmp::learning::{ExecutionSettings, LearningSettings};
 use cpdmp::palette::meaning::{self, MINIMISES, STIFF};
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
-use cpdmp::simulation::RunOutcome;
+use cpdmp::simulation::{RunOutcome, StepRecord};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::recording::beside::compared;
@@ -243,6 +243,13 @@ fn the_arc_of_a_door_is_a_circle_about_its_hinge() {
     assert!((Vector2::from(arc[0]) - first).norm() < 1e-12);
     let turn = (Vector2::from(arc[0]) - hinge).angle(&(Vector2::from(arc[arc.len() - 1]) - hinge));
     assert!((turn - 1.2).abs() < 1e-9, "{turn} rad");
+    // How far the tool is outside of the arc.
+    let beside = figure.panels.last().expect("a panel of the arc");
+    let radius_m = 0.3_f64.hypot(0.04);
+    for ([time_s, outside_mm], step) in line(beside, "executed").iter().zip(&parts.outcome.steps) {
+        let expected_mm = ((step.tool.translation.vector.xy() - hinge).norm() - radius_m) * 1e3;
+        assert!(*time_s == step.time_s && (outside_mm - expected_mm).abs() < 1e-9, "{outside_mm} mm, {expected_mm} mm");
+    }
     assert!(marks(&arm_paths(&parts.run()).expect("a path").panels[0], "arc of the handle about its hinge").is_empty());
 }
 
@@ -251,11 +258,11 @@ fn every_figure_can_be_drawn_also_for_a_skill_without_states() {
     for (outcome, states) in [(outcome(), 5), (outcome_of_the_baseline(), 0)] {
         let parts = Parts::of(outcome);
         let run = parts.run();
-        let mut figures: Vec<Figure> = vec![arm_motion(&run), arm_compliance(&run), arm_forcing(&run).expect("drawn")];
+        let mut figures: Vec<Figure> = vec![arm_motion(&run), arm_compliance(&run), arm_forces(&run), arm_forcing(&run).expect("drawn")];
         figures.extend(arm_paths(&run));
         figures.extend(arm_settings(&run).expect("drawn"));
         figures.extend(arm_states(&run).expect("drawn"));
-        assert_eq!(figures.len(), if states > 0 { 6 } else { 5 });
+        assert_eq!(figures.len(), if states > 0 { 7 } else { 6 });
         for figure in figures {
             assert!(svg(&figure).is_ok_and(|text| text.contains("made up, seed 1")), "{}", figure.title);
         }
@@ -269,7 +276,7 @@ fn what_was_executed_beside_the_run_is_drawn_in_a_colour_of_its_own() {
     let parts = Parts::of(compared());
     let others = || parts.outcome.beside.iter().map(|one| (one.name.as_str(), &one.outcome.steps[..])).collect();
     let run = parts.run().beside(others());
-    let (motion, forces) = (arm_motion(&run), arm_forces(&run).expect("there is something to compare"));
+    let (motion, forces) = (arm_motion(&run), arm_forces(&run));
     let paths = arm_paths(&run).expect("the tool moves");
     for (one, (color, _)) in parts.outcome.beside.iter().zip(meaning::BESIDE) {
         let steps = &one.outcome.steps;
@@ -277,18 +284,63 @@ fn what_was_executed_beside_the_run_is_drawn_in_a_colour_of_its_own() {
             let places: Vec<[f64; 2]> = steps.iter().map(|step| [step.time_s, step.tool.translation.vector[axis]]).collect();
             assert_eq!(line(&motion.panels[axis], &one.name), places);
             let errors: Vec<[f64; 2]> = steps.iter().map(|step| [step.time_s, step.wrench[axis] - step.expected_force[axis]]).collect();
-            assert_eq!(line(&forces.panels[axis], &one.name), errors);
+            assert_eq!(line(&forces.panels[2 * axis + 1], &one.name), errors);
+            let felt: Vec<[f64; 2]> = steps.iter().map(|step| [step.time_s, step.wrench[axis]]).collect();
+            assert_eq!(line(&forces.panels[2 * axis], &one.name), felt);
         }
         let above: Vec<[f64; 2]> = steps.iter().map(|step| [step.tool.translation.x, step.tool.translation.y]).collect();
         assert_eq!(line(&paths.panels[0], &one.name), above);
         assert!(marks(&paths.panels[0], &one.name).iter().all(|mark| mark.color == color));
     }
-    assert!(arm_forces(&parts.run()).is_none());
+    assert!(arm_forces(&parts.run()).panels.iter().all(|panel| marks(panel, &parts.outcome.beside[0].name).is_empty()));
     // Who expects no force has no force that is unexpected.
     let mut blind = parts.outcome.beside[0].outcome.steps.clone();
     blind.iter_mut().for_each(|step| step.expected_force.fill(0.0));
     let two = vec![("blind", &blind[..]), ("expecting", &parts.outcome.beside[0].outcome.steps[..])];
-    let forces = arm_forces(&parts.run().beside(two)).expect("one of them expects forces");
-    assert!(marks(&forces.panels[0], "blind").is_empty() && marks(&forces.panels[0], "expecting").len() == 1);
-    assert!(arm_forces(&parts.run().beside(vec![("blind", &blind[..])])).is_none());
+    let forces = arm_forces(&parts.run().beside(two));
+    assert!(marks(&forces.panels[1], "blind").is_empty() && marks(&forces.panels[1], "expecting").len() == 1);
+    assert!(marks(&forces.panels[0], "blind").len() == 1 && marks(&forces.panels[0], "expecting").len() == 1);
+}
+
+/// Contract: forces are drawn as the records have them, with what was expected and the difference where the skill has a model of them.
+#[test]
+fn forces_are_those_of_the_records() {
+    for (outcome, expects) in [(outcome(), true), (outcome_of_the_baseline(), false)] {
+        let parts = Parts::of(outcome);
+        let figure = arm_forces(&parts.run());
+        assert_eq!((figure.panels.len(), figure.columns), if expects { (6, 2) } else { (3, 1) });
+        for axis in 0..3 {
+            let of = |value: &dyn Fn(&StepRecord) -> f64| -> Vec<[f64; 2]> {
+                parts.outcome.steps.iter().map(|step| [step.time_s, value(step)]).collect()
+            };
+            let felt = &figure.panels[axis * figure.columns];
+            assert_eq!(line(felt, "measured"), of(&|step| step.wrench[axis]));
+            assert_eq!(marks(felt, "expected").len(), usize::from(expects));
+            if expects {
+                assert_eq!(line(felt, "expected"), of(&|step| step.expected_force[axis]));
+                let error = line(&figure.panels[2 * axis + 1], "executed, measured less expected");
+                assert_eq!(error, of(&|step| step.wrench[axis] - step.expected_force[axis]));
+            }
+        }
+    }
+}
+
+/// Contract: what stands beside the run has a plan of its own, without what forces have moved of it, where that is not the plan of the run.
+#[test]
+fn another_plan_is_drawn_and_the_same_one_is_not() {
+    let parts = Parts::of(outcome());
+    let (mut pushed, mut elsewhere) = (parts.outcome.steps.clone(), parts.outcome.steps.clone());
+    for step in &mut pushed {
+        step.reference.translation.vector.x += 0.03;
+        step.deviation.x += 0.03;
+    }
+    elsewhere.iter_mut().for_each(|step| step.reference.translation.vector.x += 0.03);
+    let figure = arm_paths(&parts.run().beside(vec![("pushed", &pushed[..]), ("elsewhere", &elsewhere[..])])).expect("a path");
+    let above = &figure.panels[0];
+    assert!(marks(above, "pushed, planned").is_empty());
+    let place = |step: &StepRecord| {
+        let place = step.reference.translation.vector - step.deviation;
+        [place.x, place.y]
+    };
+    assert_eq!(line(above, "elsewhere, planned"), elsewhere.iter().map(place).collect::<Vec<_>>());
 }

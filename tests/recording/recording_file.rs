@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use cpdmp::recording::entity_path::{self, TIMELINES};
+use cpdmp::recording::entity_path::{self, Entity, TIMELINES};
 use cpdmp::recording::{RecordingError, write_recording};
-use cpdmp::simulation::{RunOutcome, skill_duration_s};
+use cpdmp::simulation::{Help, RunOutcome, skill_duration_s};
 use nalgebra::{Matrix2, Vector2};
 use rerun::external::re_log_types::LogMsg;
 use rerun::log::Chunk;
@@ -148,5 +148,83 @@ fn a_recording_that_cannot_be_written_names_the_file() {
     if cfg!(target_os = "linux") {
         let error = write_recording(Path::new("/dev/full"), &experiment(), &outcome()).expect_err("the disk is full");
         assert!(error.to_string().contains("/dev/full"), "{error}");
+    }
+}
+
+/// What entity `entity` says on the timeline `name`.
+fn over<T>(chunks: &[Chunk], name: &str, entity: &Entity, names: &[&str], read: impl Fn(&Chunk) -> Vec<T>) -> Vec<T> {
+    let timeline = rerun::TimelineName::try_new(name).expect("a good name");
+    let of_entity = chunks.iter().filter(|chunk| *chunk.entity_path() == entity.of(names) && chunk.timelines().contains_key(&timeline));
+    of_entity.flat_map(read).collect()
+}
+
+/// Contract: nothing is drawn between two demonstrations, which no movement leads from one to the other; numbers and names are those of the
+/// demonstrations in their order.
+#[test]
+fn demonstrations_on_one_timeline_are_apart() {
+    let outcome = outcome();
+    let (_folder, path) = written(&outcome);
+    let chunks = chunks(&path);
+    let (scalars, text) = (rerun::Scalars::descriptor_scalars().component, rerun::TextDocument::descriptor_text().component);
+    let state = rerun::StateChange::descriptor_state().component;
+    let values = |chunk: &Chunk| chunk.iter_slices::<f64>(scalars).map(|values| values[0]).collect::<Vec<_>>();
+    let words =
+        |component| move |chunk: &Chunk| chunk.iter_slices::<String>(component).map(|texts| texts[0].to_string()).collect::<Vec<_>>();
+    let lessons: Vec<&str> = outcome.lessons.iter().map(|lesson| lesson.name.as_str()).collect();
+    let replays: Vec<&str> = outcome.dataset.demonstrations.iter().map(|demonstration| demonstration.name.as_str()).collect();
+    for (timeline, plot, lane, name, expected) in [
+        ("teaching_time", entity_path::TEACHING_MOTION, entity_path::TEACHING_LANE, entity_path::TEACHING_NAME, lessons),
+        ("replay_time", entity_path::REPLAY_FORCE, entity_path::REPLAY_LANE, entity_path::REPLAY_NAME, replays),
+    ] {
+        let drawn = over(&chunks, timeline, &plot, &["x"], values);
+        let pieces: Vec<&[f64]> = drawn.split(|value| value.is_nan()).filter(|piece| !piece.is_empty()).collect();
+        assert_eq!(pieces.len(), expected.len(), "{timeline}");
+        assert!(pieces.iter().all(|piece| piece.len() > 5), "{timeline}");
+        let numbers: Vec<String> = (1..=expected.len()).map(|number| number.to_string()).collect();
+        assert_eq!(over(&chunks, timeline, &lane, &[], words(state)), numbers);
+        assert_eq!(over(&chunks, timeline, &name, &[], words(text)), expected);
+    }
+}
+
+/// Contract: a smallest distance is shown while it happens, in words that say of what, which stand away from it.
+#[test]
+fn the_smallest_distance_is_said_in_words_away_from_it() {
+    let outcome = outcome();
+    let (_folder, path) = written(&outcome);
+    let chunks = chunks(&path);
+    let labels = rerun::Points3D::descriptor_labels();
+    let said = |chunk: &Chunk| {
+        chunk.iter_slices::<String>(labels.component).map(|texts| texts.iter().map(ToString::to_string).collect::<Vec<_>>()).collect()
+    };
+    let found = rows(&chunks, &entity_path::NEAREST_LABEL.of(&["block_1"]), &labels, said);
+    let words = vec!["left_hand 20 mm from block_1".to_owned()];
+    assert_eq!(found, [(600_000_000, words), (1_800_000_000, Vec::new())]);
+    let places = rerun::Points3D::descriptor_positions();
+    let place = |chunk: &Chunk| {
+        let points = chunk.iter_slices::<[f32; 3]>(places.component);
+        points.filter_map(|points| points.first().copied()).collect::<Vec<[f32; 3]>>()
+    };
+    let found = rows(&chunks, &entity_path::NEAREST_LABEL.of(&["block_1"]), &places, place);
+    let distance = |to: [f64; 3]| (nalgebra::Vector3::from(found[0].1.map(f64::from)) - nalgebra::Vector3::from(to)).norm();
+    assert!(distance([0.01, 0.0, 0.0]) > 0.2, "{found:?}");
+}
+
+/// Contract: where nobody helps, no force of a person is drawn, and the key does not speak of one.
+#[test]
+fn a_person_who_does_not_help_has_no_force() {
+    let folder = TempDir::new().expect("a folder can be made");
+    let text = rerun::TextDocument::descriptor_text().component;
+    for (help, helps) in [(experiment().execution.help, true), (Help::None, false)] {
+        let mut experiment = experiment();
+        experiment.execution.help = help;
+        let path = folder.path().join(format!("{helps}.rrd"));
+        write_recording(&path, &experiment, &outcome()).expect("the recording is written");
+        let chunks = chunks(&path);
+        assert_eq!(chunks.iter().any(|chunk| *chunk.entity_path() == entity_path::PERSON.of(&["x"])), helps);
+        let keys = chunks.iter().filter(|chunk| *chunk.entity_path() == entity_path::FORCE_COLORS.path());
+        let key: String =
+            keys.flat_map(|chunk| chunk.iter_slices::<String>(text).map(|texts| texts[0].to_string()).collect::<Vec<_>>()).collect();
+        assert_eq!(key.contains("vermilion: person"), helps, "{key}");
+        assert!(key.starts_with("blue: measured\n\nyellow: expected\n\npurple: unexpected"), "{key}");
     }
 }

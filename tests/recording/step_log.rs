@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use cpdmp::recording::{RecordingError, read_step_log, step_columns, write_step_log};
 use cpdmp::simulation::{RunOutcome, StepRecord};
+use nalgebra::Vector3;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use tempfile::TempDir;
 
-use super::made_up_run::{STEPS, outcome};
+use super::made_up_run::{STEPS, outcome, outcome_of_the_baseline};
 
 fn written(outcome: &RunOutcome) -> (TempDir, PathBuf) {
     let folder = TempDir::new().expect("a folder can be made");
@@ -91,6 +92,22 @@ fn a_log_that_is_read_gives_the_records_back() {
         let without_bodies = StepRecord { bodies: Vec::new(), ..written.clone() };
         assert_eq!(format!("{read:?}"), format!("{without_bodies:?}"));
     }
+}
+
+/// Contract: a skill without a force model expects no force, which is not a force of zero; such a log is read back, too.
+#[test]
+fn what_nobody_expects_is_null() {
+    let outcome = outcome_of_the_baseline();
+    let (_folder, path) = written(&outcome);
+    let reader = SerializedFileReader::new(File::open(&path).expect("the log is there")).expect("it is Parquet");
+    for row in reader.get_row_iter(None).expect("rows can be read") {
+        let row = row.expect("the row can be read");
+        let null: Vec<&String> = row.get_column_iter().filter(|(_, field)| **field == Field::Null).map(|(name, _)| name).collect();
+        assert_eq!(null, ["expected_force_x_n", "expected_force_y_n", "expected_force_z_n"]);
+    }
+    let read = read_step_log(&path).expect("the log is read");
+    assert_eq!(read.len(), outcome.steps.len());
+    assert!(read.iter().zip(&outcome.steps).all(|(read, made)| read.wrench == made.wrench && read.expected_force == Vector3::zeros()));
 }
 
 #[test]

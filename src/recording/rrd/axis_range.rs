@@ -6,9 +6,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rerun::external::arrow::array::{Array, Float64Array};
 use rerun::{EntityPath, Scalars, SerializedComponentColumn};
 
-/// The viewer writes numbers at powers of ten that are some points apart: this share of the height of a plot, and of one that is lower.
+/// The viewer writes numbers at powers of ten that are some points apart: this share of the height of a plot, of one that is lower, and of one
+/// that is higher.
 pub(super) const LEAST_STEP: f64 = 0.22;
 pub(super) const LEAST_STEP_OF_LOW: f64 = 0.4;
+pub(super) const LEAST_STEP_OF_HIGH: f64 = 0.18;
 
 /// Free space above and below, as a share of the range: a number at the end of what is drawn is whole.
 const SPACE: f64 = 0.1;
@@ -32,14 +34,15 @@ impl Ranges {
         *range = [range[0].min(low), range[1].max(high)];
     }
 
-    /// What a plot of everything below `origin` should show, whose numbers are at least `least_step` of its height apart; none when nothing is
-    /// known.
-    pub fn of(&self, origin: &str, least_step: f64) -> Option<[f64; 2]> {
+    /// What a plot of everything below `origin` should show, at least `least_range`, whose numbers are at least `least_step` of its height apart;
+    /// none when nothing is known.
+    pub fn of(&self, origin: &str, least_step: f64, least_range: f64) -> Option<[f64; 2]> {
         let below = format!("/{}/", origin.trim_matches('/'));
         let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let of_origin = known.iter().filter(|(entity, _)| format!("{entity}/").starts_with(&below));
         let [low, high] = of_origin.fold(NOTHING, |[low, high], (_, range)| [low.min(range[0]), high.max(range[1])]);
-        (low <= high).then(|| shown([low, high], least_step))
+        let missing = (least_range - (high - low)).max(0.0);
+        (low <= high).then(|| shown([low - missing / 2.0, high + missing / 2.0], least_step))
     }
 }
 
@@ -55,10 +58,13 @@ fn shown([mut low, mut high]: [f64; 2], least_step: f64) -> [f64; 2] {
     let [down, up] = [(low / step).floor() * step, (high / step).ceil() * step];
     let written = (high / step).floor() - (low / step).ceil() + 1.0;
     let near = 1.5 * SPACE * (high - low);
-    if written < 1.0 || (written < 2.0 && low - down <= up - high) || low - down < near {
+    let [below, above] = [low - down, up - high];
+    // Of two numbers that could be the second one, the nearer.
+    let to_low = written < 2.0 && below > 0.0 && (below <= above || above <= 0.0);
+    if written < 1.0 || to_low || below < near {
         low = down;
     }
-    if written < 1.0 || (written < 2.0 && low > down) || up - high < near {
+    if written < 1.0 || (written < 2.0 && !to_low) || above < near {
         high = up;
     }
     let space = SPACE * (high - low);
@@ -71,12 +77,24 @@ mod tests {
 
     #[test]
     fn two_numbers_are_written_and_everything_is_inside() {
-        for range in [[-0.113, -0.058], [0.0, 9.6], [0.51, 0.83], [2.1, 2.9], [0.0, 0.0], [5.0, 5.0], [-3e-6, 1e-6], [-40.0, 61.0]] {
-            for least_step in [LEAST_STEP, LEAST_STEP_OF_LOW] {
+        for range in [
+            [-0.113, -0.058],
+            [0.0, 9.6],
+            [0.0, 7.7],
+            [-7.7, 0.0],
+            [0.51, 0.83],
+            [2.1, 2.9],
+            [0.0, 0.0],
+            [5.0, 5.0],
+            [-3e-6, 1e-6],
+            [-40.0, 61.0],
+        ] {
+            for least_step in [LEAST_STEP, LEAST_STEP_OF_LOW, LEAST_STEP_OF_HIGH] {
                 let [low, high] = shown(range, least_step);
                 assert!(low < range[0] && high > range[1], "{range:?}: {low} … {high}");
-                // Space above and below makes the same step a smaller share of the height.
-                let step = 10_f64.powf(((high - low) * least_step * 0.8).log10().ceil());
+                // What is added above and below makes the same step a smaller share of the height.
+                let grown = (1.0 + 2.0 * 1.5 * SPACE) * (1.0 + 2.0 * SPACE);
+                let step = 10_f64.powf(((high - low) * least_step / grown).log10().ceil());
                 let edge = 0.06 * (high - low);
                 let written = ((high - edge) / step).floor() - ((low + edge) / step).ceil() + 1.0;
                 assert!(written >= 2.0, "{range:?}: {low} … {high} by {step}");

@@ -24,7 +24,7 @@ pub(super) fn log_baseline(recorder: &Recorder, experiment: &Experiment, outcome
     // Demonstrations that the baseline cannot learn from have none, and the run stands without it.
     let Ok(way) = plan(experiment, outcome) else { return Ok(()) };
     let Some(points) = Path::new(&way, way.duration_s()).points() else { return Ok(()) };
-    let strip = LineStrips3D::new([points]).with_colors([palette::BASELINE]).with_radii([0.003]);
+    let strip = LineStrips3D::new([points]).with_colors([palette::BASELINE]).with_radii([0.002]);
     recorder.always(BASELINE_PATH.path(), &strip)
 }
 

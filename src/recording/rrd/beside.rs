@@ -25,7 +25,7 @@ pub(super) fn log_beside(recorder: &Recorder, beside: &Beside, index: usize) -> 
     let (color, _) = look(index);
     let (name, records) = (beside.name.as_str(), &beside.outcome.steps);
     let path = BESIDE_PATH.of(&[name]);
-    recorder.always(path.clone(), &LineStrips3D::update_fields().with_colors([color]).with_radii([0.003]))?;
+    recorder.always(path.clone(), &LineStrips3D::update_fields().with_colors([color]).with_radii([0.0032]))?;
     recorder.every_step(path, pieces(records)?)?;
     for (axis, axis_name) in AXES.iter().enumerate() {
         let entity = BESIDE_MOTION.of(&[axis_name, name]);

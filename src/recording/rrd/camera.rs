@@ -23,8 +23,14 @@ const EYES_FROM_TARGET_M: [Vector3<f64>; 6] = [
 const SIZE_M: f64 = 0.75;
 const NEAREST_SHARE: f64 = 0.6;
 
-/// From what the camera looks at to words beside the work: to the right and upwards, as shares of the distance from the eye.
-const BESIDE: [f64; 2] = [0.4, 0.1];
+/// From what the camera looks at to words beside the work: to the right and upwards, as shares of the distance from the eye. Seen from above, the
+/// arm is there, and words are below the work. Then from one line of words to the next above it.
+const WORDS: [f64; 2] = [0.4, 0.1];
+const WORDS_FROM_ABOVE: [f64; 2] = [0.4, -0.43];
+const LINE: f64 = 0.055;
+
+/// A camera that looks down by more than this share of its sight's length sees the work from above.
+const STEEP: f64 = 0.5;
 
 /// How far the places around the tool lie that should be seen too (m).
 const AROUND_M: f64 = 0.1;
@@ -62,10 +68,11 @@ impl Camera {
         (self.target - self.eye).cross(&Vector3::z()).normalize()
     }
 
-    /// A place for words beside the work (m, world), where they cover nothing.
-    pub fn beside(&self) -> Vector3<f64> {
+    /// A place for words (m, world) at the right, where neither the arm nor its work is; line 0 is the lowest.
+    pub fn words(&self, line: usize) -> Vector3<f64> {
         let (sight, right) = (self.target - self.eye, self.right());
-        self.target + sight.norm() * (right * BESIDE[0] + right.cross(&sight.normalize()) * BESIDE[1])
+        let [aside, up] = if -sight.z > STEEP * sight.norm() { WORDS_FROM_ABOVE } else { WORDS };
+        self.target + sight.norm() * (right * aside + right.cross(&sight.normalize()) * (up + LINE * line as f64))
     }
 }
 
@@ -117,16 +124,21 @@ mod tests {
         assert!((camera.eye - camera.target - EYES_FROM_TARGET_M[0]).norm() < 1e-12, "the eye stays in front: {camera:?}");
     }
 
-    /// Words are as far to the right and as high in the picture from wherever it is taken.
+    /// Words are as far to the right and as high in every picture that is taken from the side, and in every one from above; lines are above each
+    /// other.
     #[test]
     fn words_are_at_the_same_place_of_every_picture() {
-        for (eye, target) in [([1.1, 0.7, 0.3], [0.0; 3]), ([0.3, -0.2, 2.0], [0.4, 0.1, 0.1])] {
+        let side = [([1.1, 0.7, 0.3], [0.0; 3]), ([-0.4, 1.3, 0.5], [0.2, 0.1, 0.0])].map(|eye| (eye, WORDS));
+        let above = [([0.3, -0.2, 2.0], [0.4, 0.1, 0.1]), ([0.45, 0.75, 1.05], [0.0; 3])].map(|eye| (eye, WORDS_FROM_ABOVE));
+        for ((eye, target), place) in side.into_iter().chain(above) {
             let camera = Camera { eye: eye.into(), target: target.into() };
             let view = nalgebra::Isometry3::look_at_rh(&camera.eye.into(), &camera.target.into(), &Vector3::z());
-            let seen = view * Point3::from(camera.beside());
             let distance = (camera.target - camera.eye).norm();
-            let expected = Vector3::new(BESIDE[0], BESIDE[1], -1.0) * distance;
-            assert!((seen.coords - expected).norm() < 1e-12, "{seen}");
+            for line in 0..4 {
+                let seen = view * Point3::from(camera.words(line));
+                let expected = Vector3::new(place[0], place[1] + LINE * line as f64, -1.0) * distance;
+                assert!((seen.coords - expected).norm() < 1e-12, "{seen}");
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use rerun::{RecordingStream, ViewCoordinates};
 use super::axis_range::Ranges;
 use super::camera::Camera;
 use super::entity_path::WORLD;
+use super::force_figure::Told;
 use super::layout::Shown;
 use super::recorder::{Fault, Recorder};
 use super::workplace::Workplace;
@@ -91,8 +92,9 @@ impl Chapters<'_> {
         robot_figure::log_robot(&recorder, &outcome.robot, records)?;
         scene_figure::log_objects(&recorder, self.experiment, records)?;
         paths::log_executed(&recorder, records)?;
-        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.camera().beside()))?;
-        force_figure::log_forces(&recorder, records, outcome.skill.force.is_some(), &self.camera().right())?;
+        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.camera().words(0)))?;
+        let told = Told { expected: outcome.skill.force.is_some(), person: self.experiment.execution.help != Help::None };
+        force_figure::log_forces(&recorder, records, told, &self.camera().right())?;
         lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
@@ -100,7 +102,7 @@ impl Chapters<'_> {
 
     /// What is known when it is over.
     pub fn end(&self, outcome: &RunOutcome) -> Result<(), Fault> {
-        contact_figure::log_contacts(&self.recorder(&[]), outcome)?;
+        contact_figure::log_contacts(&self.recorder(&[]), outcome, &self.camera())?;
         if !self.beside.is_empty() {
             beside::log_forces(&self.recorder(&outcome.steps), &outcome.steps, &outcome.skill, (beside::RUN, palette::EXECUTED))?;
             beside::log_colors(&self.recorder(&[]), self.beside, outcome.skill.force.is_some())?;

@@ -26,34 +26,47 @@ pub(super) const SMALLEST_ARROW_N: f64 = 0.25;
 /// Colours of the three axes, as rerun and most robot tools draw them.
 const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLANNED];
 
-/// Which colour is which force, for a skill with a force model and for one without.
-const COLORS: &str = "blue: measured\n\nyellow: expected\n\npurple: unexpected\n\nvermilion: person";
-const COLORS_WITHOUT_MODEL: &str = "blue: measured\n\nvermilion: person";
+/// Which colour is which force.
+const MEASURED_COLOR: &str = "blue: measured";
+const MODEL_COLORS: &str = "\n\nyellow: expected\n\npurple: unexpected";
+const PERSON_COLOR: &str = "\n\nvermilion: person";
+
+/// Which forces there are besides the measured one.
+#[derive(Clone, Copy)]
+pub(super) struct Told {
+    /// Whether the skill knows what force to expect.
+    pub expected: bool,
+    /// Whether a person may help.
+    pub person: bool,
+}
 
 /// The arrow of the expected force starts so far to the right of the measured one (m): else the one that is right would hide the other.
 const ASIDE_M: f64 = 0.025;
 
-/// Logs all forces and what answers them, seen with `right` at the right; `expects` tells whether the skill knows what force to expect.
-pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], expects: bool, right: &Vector3<f64>) -> Result<(), Fault> {
+/// Logs all forces and what answers them, seen with `right` at the right.
+pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], told: Told, right: &Vector3<f64>) -> Result<(), Fault> {
     let aside = right * ASIDE_M;
     let tool = |r: &StepRecord| Point3::from(r.tool.translation.vector);
     let measured = |r: &StepRecord| Vector3::from(r.wrench.fixed_rows::<3>(0));
     let arrows = Arrows { recorder, records };
     arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (tool(r), measured(r)))?;
-    if expects {
+    if told.expected {
         arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r) + aside, r.expected_force))?;
     }
     arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point + to_surface(&r.human.force), r.human.force))?;
-    let colors = if expects { COLORS } else { COLORS_WITHOUT_MODEL };
+    let colors = [(MEASURED_COLOR, true), (MODEL_COLORS, told.expected), (PERSON_COLOR, told.person)];
+    let colors: String = colors.into_iter().filter_map(|(color, there)| there.then_some(color)).collect();
     recorder.always(FORCE_COLORS.path(), &TextDocument::from_markdown(colors))?;
     let plot = Plot { recorder, records };
     for (i, axis) in AXES.iter().enumerate() {
         plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;
-        if expects {
+        if told.expected {
             plot.log(EXPECTED.of(&[axis]), "expected", palette::EXPECTED, |r| r.expected_force[i])?;
             plot.log(EXTERNAL.of(&[axis]), "unexpected", palette::COMPLIES, |r| r.wrench[i] - r.expected_force[i])?;
         }
-        plot.log(PERSON.of(&[axis]), "person", palette::PERSON, |r| r.human.force[i])?;
+        if told.person {
+            plot.log(PERSON.of(&[axis]), "person", palette::PERSON, |r| r.human.force[i])?;
+        }
         plot.log(TORQUE.of(&[axis]), axis, AXIS_COLORS[i], |r| r.wrench[3 + i])?;
         plot.log(COUPLING.of(&[axis]), axis, AXIS_COLORS[i], |r| r.coupling_displacement[i])?;
     }

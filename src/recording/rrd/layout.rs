@@ -11,14 +11,17 @@ use super::axis_range::Ranges;
 use super::beside;
 use super::blueprint_property::Properties;
 use super::camera::Camera;
-use super::entity_path::{BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EXECUTED_PATH, Entity, FORCE_COLORS, SIM_TIME, TEACHING_PATH};
+use super::entity_path::{
+    BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EXECUTED_PATH, Entity, FORCE_COLORS, REPLAY_NAME, SIM_TIME, TEACHING_NAME, TEACHING_PATH,
+};
 use super::paths::AXES;
 use super::recorder::Fault;
-use super::views::{Views, motion_title};
+use super::views::Views;
 use crate::simulation::Beside;
 
 /// Titles stand where a legend would cover what is drawn.
 const PATHS: &str = "Taught grey, planned blue, executed orange";
+const PATHS_OF_BASELINE: &str = "Taught grey, planned by the LWR-DMP blue, executed orange";
 const BASELINE: &str = ", LWR-DMP black";
 const PERSON: &str = "; person vermilion";
 
@@ -65,8 +68,10 @@ pub(super) fn layout(shown: &Shown<'_>, ranges: &Ranges, play: PlayState) -> Res
 /// The scene with the events at the left; motion, forces, compliance and lanes at the right.
 fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> {
     let others = beside::for_title(shown.beside);
+    // Only the baseline has no states.
+    let paths = if shown.states.is_some() { PATHS } else { PATHS_OF_BASELINE };
     let parts =
-        [(PATHS, true), (&others, true), (BASELINE, shown.baseline), (shown.states.unwrap_or_default(), true), (PERSON, shown.person)];
+        [(paths, true), (&others, true), (BASELINE, shown.baseline), (shown.states.unwrap_or_default(), true), (PERSON, shown.person)];
     let title: String = parts.into_iter().filter_map(|(part, told)| told.then_some(part)).collect();
     let growing = std::iter::once(EXECUTED_PATH.path()).chain(shown.beside.iter().map(|one| BESIDE_PATH.of(&[&one.name])));
     let scene = views.scene(&title, "/world", growing, shown)?;
@@ -86,11 +91,12 @@ fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> 
     Ok(Horizontal::new([left.into(), Vertical::new(right).with_row_shares(shares).into()]).with_column_shares(vec![1.25, 1.0]))
 }
 
-/// The coordinates, those for the large plots first: x and z, as in the paper, unless one of them hardly moves and y does.
+/// The coordinates, those for the large plots first: x and z, as in the paper, unless one of them hardly moves and y does; what moves comes first.
 fn axes(way_m: &Vector3<f64>) -> [&'static str; 3] {
     let moves = |axis: usize| way_m[axis] >= MOVES_M;
     match (moves(0), moves(1), moves(2)) {
-        (_, true, false) => ["x", "y", "z"],
+        (true, true, false) => ["x", "y", "z"],
+        (false, true, false) => ["y", "x", "z"],
         (false, true, true) => ["y", "z", "x"],
         _ => ["x", "z", "y"],
     }
@@ -109,56 +115,67 @@ fn more(views: &mut Views, [first, second, third]: [&str; 3], shown: &Shown<'_>)
     let forcing = [first, second].map(|axis| (format!("Forcing {axis} (m)"), format!("plots/forcing/{axis}")));
     let forcing = side_by_side("Forcing", &forcing.each_ref().map(|(title, origin)| (title.as_str(), origin.as_str())))?;
     let coupling = side_by_side("Coupling", &[("Displacement (m): x orange, y green, z blue", "plots/coupling")])?;
-    let gripper = side_by_side("Gripper", &[("0 closed, 1 open: commanded blue, measured orange", "plots/gripper")])?;
-    let motion = side_by_side(
-        &format!("Motion {third}"),
-        &[(&motion_title(third, &beside::for_title(shown.beside)), &format!("plots/motion/{third}"))],
-    )?;
+    let motion = views.motion(third, &beside::for_title(shown.beside))?;
+    let motion = Horizontal::new([motion.into()]).with_name(format!("Motion {third}"));
+    let gripper = views.fraction_plot("0 closed, 1 open: commanded blue, measured orange", "plots/gripper")?;
+    let gripper = Horizontal::new([gripper.into()]).with_name("Gripper");
     let mut tabs: Vec<ContainerLike> = vec![force.into(), forcing.into(), coupling.into(), gripper.into(), motion.into()];
     if shown.person {
         tabs.insert(1, person.into());
     }
     if !shown.beside.is_empty() {
         // The comparison is what such a scenario is about.
-        tabs.splice(0..0, compared(views)?);
+        tabs.splice(0..0, compared(views, shown.beside)?);
     }
     Ok(tabs)
 }
 
-/// Forces of the run and of everything beside it: how far they are from what was expected, and as they were measured.
-fn compared(views: &mut Views) -> Result<[ContainerLike; 2], Fault> {
+/// Forces of the run and of everything beside it: how far they are from what was expected, if something beside it expects any, and as they were
+/// measured.
+fn compared(views: &mut Views, beside: &[Beside]) -> Result<Vec<ContainerLike>, Fault> {
     let mut page = |name: &str, key: &Entity, origin: &str| -> Result<ContainerLike, Fault> {
         let plot = |axis: &&str| Ok(views.plot(&format!("{axis} (N)"), &format!("plots/beside/{origin}/{axis}"))?.into());
         let plots: Vec<ContainerLike> = AXES.iter().map(plot).collect::<Result<_, Fault>>()?;
         let key = TextDocumentView::new("Key").with_origin(key.pattern);
         Ok(Horizontal::new([Horizontal::new(plots).into(), key.into()]).with_name(name).with_column_shares(vec![4.6, 1.0]).into())
     };
-    Ok([page("Force errors", &ERROR_COLORS, "force_error")?, page("Forces", &BESIDE_COLORS, "force")?])
+    let mut pages = vec![page("Forces compared", &BESIDE_COLORS, "force")?];
+    if beside.iter().any(|one| one.outcome.skill.force.is_some()) {
+        pages.insert(0, page("Force errors", &ERROR_COLORS, "force_error")?);
+    }
+    Ok(pages)
 }
 
 /// The lessons: the scene at the left; motion, person and gripper at the right.
 fn teaching(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> {
     let scene = views.scene("Teaching: a person (vermilion) leads the weightless arm", "/teaching", [TEACHING_PATH.path()], shown)?;
     let [first, second, _] = axes(&shown.way_m);
-    let mut taught = |axis: &str| views.plot(&format!("Taught {axis} (m)"), &format!("teaching_plots/motion/{axis}"));
+    let mut taught = |axis: &str| views.coordinate(&format!("Taught {axis} (m)"), &format!("teaching_plots/motion/{axis}"));
     let right: [ContainerLike; 5] = [
         taught(first)?.into(),
         taught(second)?.into(),
         views.plot("Force of the person (N)", "teaching_plots/person")?.into(),
-        views.plot("Gripper: 0 closed, 1 open", "teaching_plots/gripper")?.into(),
-        StateTimelineView::new("Demonstration").with_origin("/teaching_lanes").into(),
+        views.fraction_plot("Gripper: 0 closed, 1 open", "teaching_plots/gripper")?.into(),
+        demonstration("/teaching_lanes", TEACHING_NAME.pattern).into(),
     ];
     let right = Vertical::new(right).with_row_shares(vec![1.0, 1.0, 1.0, 0.7, 0.6]);
     Ok(Horizontal::new([scene.into(), right.into()]).with_column_shares(vec![1.25, 1.0]))
 }
 
+/// Which demonstration it is: its number over time, and the name of the one at the cursor, for which a lane has no room.
+fn demonstration(lane: &str, name: &str) -> Horizontal {
+    let number = StateTimelineView::new("Number of the demonstration").with_origin(lane);
+    let name = TextDocumentView::new("Its name").with_origin(name);
+    Horizontal::new([number.into(), name.into()]).with_column_shares(vec![1.6, 1.0])
+}
+
 /// The replays: what the arm felt, per axis.
 fn replay(views: &mut Views) -> Result<Vertical, Fault> {
     let plots: [ContainerLike; 4] = [
-        views.plot("Measured force x (N)", "replay_plots/force/x")?.into(),
-        views.plot("Measured force y (N)", "replay_plots/force/y")?.into(),
-        views.plot("Measured force z (N)", "replay_plots/force/z")?.into(),
-        StateTimelineView::new("Demonstration").with_origin("/replay_lanes").into(),
+        views.high_plot("Measured force x (N)", "replay_plots/force/x")?.into(),
+        views.high_plot("Measured force y (N)", "replay_plots/force/y")?.into(),
+        views.high_plot("Measured force z (N)", "replay_plots/force/z")?.into(),
+        demonstration("/replay_lanes", REPLAY_NAME.pattern).into(),
     ];
     Ok(Vertical::new(plots).with_row_shares(vec![1.0, 1.0, 1.0, 0.5]))
 }

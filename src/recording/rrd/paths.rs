@@ -34,7 +34,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, duration_s: f
     }
     let planned = Path::new(&outcome.plan, outcome.plan.duration_s());
     if let Some(points) = planned.points() {
-        recorder.always(PLANNED_PATH.path(), &strip(points, palette::PLANNED, 0.003))?;
+        recorder.always(PLANNED_PATH.path(), &strip(points, palette::PLANNED, PLANNED_M))?;
     }
     for (axis, name) in AXES.iter().enumerate() {
         planned.log(recorder, &PLANNED_MOTION.of(&[name]), axis, &style("planned", palette::PLANNED, 2.0))?;
@@ -42,12 +42,17 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, duration_s: f
     Ok(())
 }
 
+/// Radius of the planned and of the executed path (m). Lines in one place show through each other in the viewer: the edges of the executed one
+/// are seen in any case.
+const PLANNED_M: f32 = 0.0025;
+const EXECUTED_M: f32 = 0.005;
+
 /// Logs where the tool went.
 pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord]) -> Result<(), Fault> {
     let tools: Vec<_> = records.iter().map(|record| record.tool).collect();
     recorder.poses(TOOL.path(), &tools)?;
     recorder.every_step(EXECUTED_PATH.path(), pieces(records)?)?;
-    let look = LineStrips3D::update_fields().with_colors([palette::EXECUTED]).with_radii([0.004]);
+    let look = LineStrips3D::update_fields().with_colors([palette::EXECUTED]).with_radii([EXECUTED_M]);
     recorder.always(EXECUTED_PATH.path(), &look)?;
     for (axis, name) in AXES.iter().enumerate() {
         let entity = EXECUTED_MOTION.of(&[name]);

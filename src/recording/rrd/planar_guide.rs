@@ -50,4 +50,5 @@ demonstrated, thick for others. A large vermilion point is a collision, at the d
 the phase. Lines of the grid are 1 m apart.
 
 Plots show forcing terms over the phase: grey what the demonstrations ask for (4), light lines what the model makes of taught situations,
-vermilion what it makes of others; each chain has a colour of its own, and each width a page. Ellipses are the states of the model at two standard deviations.";
+vermilion what it makes of others; each chain has a colour of its own, and each width a page, or demonstrated and
+new situations one each. Ellipses are the states of the model at two standard deviations.";

@@ -96,27 +96,37 @@ impl Views {
     }
 }
 
-/// What the plots of a method show along x and y, page by page: where obstacles differ in width, each width has a page.
+/// Pages of what was demonstrated, and of what was not.
+const TAUGHT: &str = "Demonstrated situations";
+const NEW: &str = "New situations";
+
+/// What the plots of a method show along x and y, page by page: where obstacles differ in width, each width has a page; else what was
+/// demonstrated has one, and what was not.
 fn pages_of(outcome: &PlanarOutcome, guidance: Guidance, method: Method) -> Vec<(String, [Vec<String>; 2])> {
     let own: Vec<&ForcingCurve> = outcome.forcing_with(guidance).filter(|curve| curve.method == Some(method)).collect();
     let mut widths: Vec<(f64, bool)> = own.iter().filter_map(|curve| Some((curve.half_width_m()?, curve.taught))).collect();
     widths.sort_by(|a, b| a.0.total_cmp(&b.0));
     widths.dedup();
+    let drawn = |axis: &str, curve: &ForcingCurve| {
+        let names = [guidance.key(), method.key(), axis, &situation(curve)].map(str::to_owned);
+        [&CURVE, &GAUSSIANS].map(|entity| entity.of(&names.each_ref().map(String::as_str)).to_string())
+    };
     if widths.len() < 2 {
-        let all = AXES.map(|axis| {
-            vec![format!("/forcing/demonstrated/{axis}/**"), format!("/forcing/{}/{}/{axis}/**", guidance.key(), method.key())]
-        });
-        return vec![(format!("{}{}", method.title(), told(guidance)), all)];
+        let page = |(name, taught): (&str, bool)| {
+            let entities = AXES.map(|axis| {
+                let shown = outcome.demonstrations.iter().filter(|_| taught).map(|shown| DEMONSTRATED.of(&[axis, &shown.name]).to_string());
+                shown.chain(own.iter().filter(|curve| curve.taught == taught).flat_map(|curve| drawn(axis, curve))).collect()
+            });
+            (name.to_owned(), entities)
+        };
+        return [(TAUGHT, true), (NEW, false)].map(page).to_vec();
     }
     let page = |(width, taught): &(f64, bool)| {
         let entities = AXES.map(|axis| {
             let of_width = own.iter().filter(|curve| curve.half_width_m() == Some(*width));
-            let drawn = of_width.flat_map(|curve| {
-                let names = [guidance.key(), method.key(), axis, &situation(curve)].map(str::to_owned);
-                [&CURVE, &GAUSSIANS].map(|entity| entity.of(&names.each_ref().map(String::as_str)))
-            });
             let shown = outcome.demonstrations.iter().filter(|shown| shown.obstacle.half_axes_m[0] == *width);
-            shown.map(|shown| DEMONSTRATED.of(&[axis, &shown.name])).chain(drawn).map(|path| path.to_string()).collect()
+            let shown = shown.map(|shown| DEMONSTRATED.of(&[axis, &shown.name]).to_string());
+            shown.chain(of_width.flat_map(|curve| drawn(axis, curve))).collect()
         });
         (named(*width, *taught), entities)
     };

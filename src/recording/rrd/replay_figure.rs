@@ -1,10 +1,10 @@
 //! The replays: what the arm felt when it repeated the demonstrations alone, one after the other, on a timeline of their own.
 
 use nalgebra::Vector3;
-use rerun::{Arrows3D, Scalars, StateChange, Transform3D};
+use rerun::{Arrows3D, Scalars, StateChange, TextDocument, Transform3D};
 
 use super::convert;
-use super::entity_path::{REPLAY_ARROW, REPLAY_FORCE, REPLAY_LANE, REPLAY_PATH, REPLAY_TIME};
+use super::entity_path::{REPLAY_ARROW, REPLAY_FORCE, REPLAY_LANE, REPLAY_NAME, REPLAY_PATH, REPLAY_TIME};
 use super::force_figure::ARROW_M_PER_N;
 use super::palette;
 use super::paths::{AXES, COLUMNS, style};
@@ -35,12 +35,14 @@ pub(super) fn log_replays(recorder: &Recorder, dataset: &Dataset) -> Result<(), 
     for (axis, name) in AXES.iter().enumerate() {
         let entity = REPLAY_FORCE.of(&[name]);
         recorder.always(entity.clone(), &style("measured", palette::MEASURED, 1.5))?;
-        let values = film.forces.iter().map(|force| force[axis]);
-        recorder.on(REPLAY_TIME, entity, &film.times_s, Scalars::new(values).columns_of_unit_batches()?)?;
+        let (times_s, values) = film.over_replays(axis);
+        recorder.on(REPLAY_TIME, entity, &times_s, Scalars::new(values).columns_of_unit_batches()?)?;
     }
-    let numbered = film.starts.iter().enumerate().map(|(number, (time_s, name))| (*time_s, format!("{}: {name}", number + 1)));
-    let (times, names): (Vec<f64>, Vec<String>) = numbered.unzip();
-    recorder.on(REPLAY_TIME, REPLAY_LANE.path(), &times, StateChange::new().with_state(names).columns_of_unit_batches()?)
+    let (times, names): (Vec<f64>, Vec<&str>) = film.starts.iter().copied().unzip();
+    let numbers = (1..=names.len()).map(|number| number.to_string());
+    recorder.on(REPLAY_TIME, REPLAY_LANE.path(), &times, StateChange::new().with_state(numbers).columns_of_unit_batches()?)?;
+    let names = TextDocument::update_fields().with_many_text(names);
+    recorder.on(REPLAY_TIME, REPLAY_NAME.path(), &times, names.columns_of_unit_batches()?)
 }
 
 /// All replays on one timeline.
@@ -53,6 +55,21 @@ struct Film<'a> {
 }
 
 impl<'a> Film<'a> {
+    /// The force along an axis, and none after each replay: nothing leads from one to the next.
+    fn over_replays(&self, axis: usize) -> (Vec<f64>, Vec<f64>) {
+        let mut rows = (Vec::new(), Vec::new());
+        for (i, (time_s, force)) in self.times_s.iter().zip(&self.forces).enumerate() {
+            rows.0.push(*time_s);
+            rows.1.push(force[axis]);
+            let next = self.times_s.get(i + 1);
+            if next.is_none_or(|next| self.starts.iter().any(|(start_s, _)| start_s == next)) {
+                rows.0.push(time_s + PAUSE_S / 2.0);
+                rows.1.push(f64::NAN);
+            }
+        }
+        rows
+    }
+
     fn append(&mut self, name: &'a str, trajectory: &Trajectory) {
         let vector = |names: [&str; 3], i: usize| -> Option<Vector3<f64>> {
             let [x, y, z] = names.map(|name| trajectory.column_index(name).map(|column| trajectory.values()[(i, column)]));

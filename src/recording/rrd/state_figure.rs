@@ -32,13 +32,13 @@ pub(super) fn log_states(recorder: &Recorder, experiment: &Experiment, outcome: 
     Ok(())
 }
 
-/// Logs the active state of some records when it changes, its name at the place `beside` the work (m, world).
+/// Logs the active state of some records when it changes, its name at the place of some `words` (m, world).
 pub(super) fn log_active(
     recorder: &Recorder,
     experiment: &Experiment,
     outcome: &RunOutcome,
     records: &[StepRecord],
-    (duration_s, beside): (f64, Vector3<f64>),
+    (duration_s, words): (f64, Vector3<f64>),
 ) -> Result<(), Fault> {
     let states = &states(experiment, outcome, duration_s)?;
     if states.is_empty() {
@@ -53,7 +53,7 @@ pub(super) fn log_active(
     let suffix = |beta: f64| if unheard && beta != 0.0 { ", but the coupling is off" } else { "" };
     let label = |i: &usize| format!("state {i}: {}{}", beta_in_words(states[*i].beta), suffix(states[*i].beta));
     let labels = Points3D::update_fields()
-        .with_positions(active.iter().map(|_| convert::vector(&beside)))
+        .with_positions(active.iter().map(|_| convert::vector(&words)))
         .with_labels(active.iter().map(label))
         .with_colors(active.iter().map(|i| palette::light(beta_color(states[*i].beta))));
     recorder.at_times(ACTIVE_LABEL.path(), &times, labels.columns_of_unit_batches()?)?;

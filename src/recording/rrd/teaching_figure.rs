@@ -1,12 +1,12 @@
 //! The lessons: a person leads the arm, one demonstration after the other, on a timeline of their own.
 
 use nalgebra::{Isometry3, Vector3};
-use rerun::{Arrows3D, EntityPath, LineStrips3D, Scalars, StateChange, Transform3D, ViewCoordinates};
+use rerun::{Arrows3D, EntityPath, LineStrips3D, Scalars, StateChange, TextDocument, Transform3D, ViewCoordinates};
 
 use super::convert;
 use super::entity_path::{
-    TEACHING, TEACHING_BODY, TEACHING_BODY_SHAPE, TEACHING_FORCE, TEACHING_GRIPPER, TEACHING_LANE, TEACHING_MOTION, TEACHING_OBJECT,
-    TEACHING_OBJECT_SHAPE, TEACHING_PATH, TEACHING_PERSON, TEACHING_TIME,
+    TEACHING, TEACHING_BODY, TEACHING_BODY_SHAPE, TEACHING_FORCE, TEACHING_GRIPPER, TEACHING_LANE, TEACHING_MOTION, TEACHING_NAME,
+    TEACHING_OBJECT, TEACHING_OBJECT_SHAPE, TEACHING_PATH, TEACHING_PERSON, TEACHING_TIME,
 };
 use super::force_figure::{ARROW_M_PER_N, SMALLEST_ARROW_N, to_surface};
 use super::palette;
@@ -127,11 +127,26 @@ impl<'a> Film<'a> {
         recorder.on(TEACHING_TIME, TEACHING_PERSON.path(), &self.times_s, arrows.columns(lengths)?)
     }
 
+    /// One value per moment, and none after each lesson: nothing leads from one lesson to the next.
+    fn over_lessons(&self, value: &dyn Fn(&LessonLook) -> f64) -> (Vec<f64>, Vec<f64>) {
+        let mut rows = (Vec::new(), Vec::new());
+        for (i, look) in self.looks.iter().enumerate() {
+            rows.0.push(self.times_s[i]);
+            rows.1.push(value(look));
+            let is_last = i + 1 == self.looks.len() || self.starts.iter().any(|(start, _)| *start == i + 1);
+            if is_last {
+                rows.0.push(self.times_s[i] + PAUSE_S / 2.0);
+                rows.1.push(f64::NAN);
+            }
+        }
+        rows
+    }
+
     fn log_plots(&self, recorder: &Recorder) -> Result<(), Fault> {
         let plot = |entity: EntityPath, look, value: &dyn Fn(&LessonLook) -> f64| -> Result<(), Fault> {
             recorder.always(entity.clone(), &look)?;
-            let values: Vec<f64> = self.looks.iter().map(|look| value(look)).collect();
-            recorder.on(TEACHING_TIME, entity, &self.times_s, Scalars::new(values).columns_of_unit_batches()?)
+            let (times_s, values) = self.over_lessons(value);
+            recorder.on(TEACHING_TIME, entity, &times_s, Scalars::new(values).columns_of_unit_batches()?)
         };
         for (axis, name) in AXES.iter().enumerate() {
             plot(TEACHING_MOTION.of(&[name]), style(name, palette::TAUGHT, 2.0), &|look| look.tool[axis])?;
@@ -139,7 +154,9 @@ impl<'a> Film<'a> {
         plot(TEACHING_FORCE.path(), style("force (N)", palette::PERSON, 1.5), &|look| look.human.force.norm())?;
         plot(TEACHING_GRIPPER.path(), style("commanded", palette::PLANNED, 1.5), &|look| look.gripper_command)?;
         let times: Vec<f64> = self.starts.iter().map(|(start, _)| self.times_s[*start]).collect();
-        let names = self.starts.iter().enumerate().map(|(number, (_, name))| format!("{}: {name}", self.number + number + 1));
-        recorder.on(TEACHING_TIME, TEACHING_LANE.path(), &times, StateChange::new().with_state(names).columns_of_unit_batches()?)
+        let numbers = (1..=self.starts.len()).map(|number| (self.number + number).to_string());
+        recorder.on(TEACHING_TIME, TEACHING_LANE.path(), &times, StateChange::new().with_state(numbers).columns_of_unit_batches()?)?;
+        let names = TextDocument::update_fields().with_many_text(self.starts.iter().map(|(_, name)| *name));
+        recorder.on(TEACHING_TIME, TEACHING_NAME.path(), &times, names.columns_of_unit_batches()?)
     }
 }

@@ -9,7 +9,7 @@ use rerun::external::re_sdk_types::blueprint::archetypes::{
 };
 use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind, TimelineColumn};
 
-use super::axis_range::{LEAST_STEP, LEAST_STEP_OF_LOW, Ranges};
+use super::axis_range::{LEAST_STEP, LEAST_STEP_OF_HIGH, LEAST_STEP_OF_LOW, Ranges};
 use super::blueprint_property::Properties;
 use super::convert;
 use super::entity_path::{SIM_TIME, TIMELINES};
@@ -17,8 +17,11 @@ use super::layout::Shown;
 use super::palette;
 use super::recorder::Fault;
 
+/// A coordinate is seen over at least this range (m): noise of one that stands still is no motion.
+const LEAST_RANGE_M: f64 = 0.02;
+
 /// What the plot of a coordinate is called; `others` are the colours of what stands beside the run.
-pub(super) fn motion_title(axis: &str, others: &str) -> String {
+fn motion_title(axis: &str, others: &str) -> String {
     format!("Motion {axis} (m): taught grey, planned blue, executed orange{others}")
 }
 
@@ -58,27 +61,48 @@ impl Views {
 
     /// A plot over time, linked with all others. A legend would stand over the data: titles name the colours.
     pub fn plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
-        self.plot_with(name, origin, LEAST_STEP)
+        self.plot_with(name, origin, (LEAST_STEP, 0.0))
     }
 
     /// The same for a place that is lower than others.
     pub fn low_plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
-        self.plot_with(name, origin, LEAST_STEP_OF_LOW)
+        self.plot_with(name, origin, (LEAST_STEP_OF_LOW, 0.0))
     }
 
-    fn plot_with(&mut self, name: &str, origin: &str, least_step: f64) -> Result<View, Fault> {
+    /// The same for a place that is higher than others.
+    pub fn high_plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
+        self.plot_with(name, origin, (LEAST_STEP_OF_HIGH, 0.0))
+    }
+
+    fn plot_with(&mut self, name: &str, origin: &str, (least_step, least_range): (f64, f64)) -> Result<View, Fault> {
+        let range = self.ranges.of(origin, least_step, least_range);
+        self.plot_in(name, origin, range)
+    }
+
+    /// A plot of a range; the viewer chooses one if there is none.
+    fn plot_in(&mut self, name: &str, origin: &str, range: Option<[f64; 2]>) -> Result<View, Fault> {
         let view = view(TimeSeriesView::new(name).with_origin(origin))?;
         self.properties.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
         self.properties.set(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
-        if let Some(range) = self.ranges.of(origin, least_step) {
+        if let Some(range) = range {
             self.properties.set(&view, "ScalarAxis", ScalarAxis::new().with_range(range));
         }
         Ok(view)
     }
 
+    /// A plot of what lies between 0 and 1.
+    pub fn fraction_plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
+        self.plot_in(name, origin, Some([-0.1, 1.1]))
+    }
+
     /// A coordinate over time.
     pub fn motion(&mut self, axis: &str, others: &str) -> Result<View, Fault> {
-        self.plot(&motion_title(axis, others), &format!("plots/motion/{axis}"))
+        self.coordinate(&motion_title(axis, others), &format!("plots/motion/{axis}"))
+    }
+
+    /// The same under another name.
+    pub fn coordinate(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
+        self.plot_with(name, origin, (LEAST_STEP, LEAST_RANGE_M))
     }
 
     pub fn events(&mut self) -> Result<View, Fault> {
