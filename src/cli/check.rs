@@ -71,7 +71,12 @@ fn simulated(path: &Path, options: &LoadOptions, global: &Global, terminal: &Ter
             if global.deny_warnings {
                 run.report.deny_warnings();
             }
-            Checked::judged(name, "scenario", run.report, faults(&scenario.warnings), clock.elapsed_s())
+            let warnings = faults(&scenario.warnings);
+            if run.report.outcome == Outcome::InvalidInput && !run.refusal.is_empty() {
+                terminal.faults(&run.refusal.faults);
+                return Checked::refused(name, "scenario", [run.refusal.for_report(path), warnings].concat(), clock.elapsed_s());
+            }
+            Checked::judged(name, "scenario", run.report, warnings, clock.elapsed_s())
         }
     }
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::check::faults;
 use super::judged_run::outcome_of;
+use super::located::Located;
 use super::progress::Clock;
 use super::terminal::Terminal;
 use crate::check::{CriterionSpec, allow, judge_motion};
@@ -46,7 +47,7 @@ pub(super) fn judged(
     match report(&scenario) {
         Ok(mut report) => {
             report.warnings.iter().for_each(|warning| terminal.note(&format!("{name}: warning: {warning}\n")));
-            report.locate(|key| scenario.places.get(key).cloned());
+            report.locate(|key| scenario.places.get(key));
             if options.deny_warnings {
                 report.deny_warnings();
             }
@@ -72,7 +73,7 @@ pub(super) fn movement(
         Err(SimulationError::Demonstrations(error)) => Err(of_data(samples, &error)),
         Err(error) if is_of_the_scene(&error) => {
             let scene = scenario.files.first().map_or(samples, PathBuf::as_path);
-            Err(vec![InputFault::of_file(scene, FileCode::Scene, error.to_string())])
+            Err(Located::of(&error, scenario).for_report(scene))
         }
         Err(error) if outcome_of(&error) == Outcome::InvalidInput => {
             Err(vec![InputFault::of_file(samples, FileCode::Trajectory, error.to_string())])
@@ -83,8 +84,9 @@ pub(super) fn movement(
 
 /// Whether the robot or the scene cannot be used, whatever moves in it.
 fn is_of_the_scene(error: &SimulationError) -> bool {
-    use SimulationError::{Arm, JointCounts, Scene, UnknownParts, Urdf, World};
-    outcome_of(error) == Outcome::InvalidInput && matches!(error, Urdf(_) | Arm(_) | JointCounts(_) | UnknownParts(_) | World(_) | Scene(_))
+    use SimulationError::{Arm, Scene, Urdf, World};
+    let of_scene = |error: &SimulationError| matches!(error, Urdf(_) | Arm(_) | World(_) | Scene(_));
+    outcome_of(error) == Outcome::InvalidInput && error.parts().iter().all(|(_, part)| of_scene(part))
 }
 
 fn moved(experiment: &Experiment, samples: &Path, clock: &Clock) -> Result<MotionOutcome, SimulationError> {

@@ -1,5 +1,7 @@
 //! One scenario from its settings to its report.
 
+use super::located::Located;
+use super::terminal::Terminal;
 use crate::check::{allow, judge, judge_planar};
 use crate::demonstration::DemonstrationError;
 use crate::learning::LearningError;
@@ -14,6 +16,8 @@ pub(super) struct JudgedRun {
     /// What it left behind; nothing if it could not be finished.
     pub left: Option<Left>,
     pub report: RunReport,
+    /// What keeps it from being run, where it stands in the scenario; the report's error tells the same.
+    pub refusal: Located,
 }
 
 /// What a run left behind.
@@ -29,6 +33,17 @@ impl JudgedRun {
     pub fn wants_folder(&self) -> bool {
         self.report.outcome != Outcome::InvalidInput
     }
+
+    /// Says why it was not run: each fault with the lines that it is about, if it is about any.
+    pub fn tell_refusal(&self, terminal: &Terminal) {
+        match &self.refusal.faults[..] {
+            [] => terminal.error(&format!("error: {}\n", self.report.error.as_deref().unwrap_or_default())),
+            faults => {
+                terminal.faults(faults);
+                self.refusal.elsewhere.iter().for_each(|told| terminal.error(&format!("error: {told}\n")));
+            }
+        }
+    }
 }
 
 /// Runs a scenario and judges it.
@@ -37,7 +52,7 @@ pub(super) fn judged_run(scenario: &Scenario, progress: &dyn Progress) -> Judged
         Work::Arm(experiment) => arm(experiment, scenario, progress),
         Work::Planar(planar) => plane(planar, scenario, progress),
     };
-    run.report.locate(|key| scenario.places.get(key).cloned());
+    run.report.locate(|key| scenario.places.get(key));
     if run.left.is_some() {
         run.report.warnings.extend(scenario.warnings.iter().map(ToString::to_string));
     }
@@ -49,14 +64,22 @@ fn arm(experiment: &Experiment, scenario: &Scenario, progress: &dyn Progress) ->
         Ok(mut left) => {
             allow(&mut left.collisions, &scenario.allowed_contacts);
             let criteria = judge(&left, experiment, &scenario.criteria);
-            JudgedRun { report: RunReport::finished(experiment, &left, &criteria), left: Some(Left::Arm(Box::new(left))) }
+            JudgedRun {
+                report: RunReport::finished(experiment, &left, &criteria),
+                left: Some(Left::Arm(Box::new(left))),
+                refusal: Located::default(),
+            }
         }
         Err(SimulationError::CutShort { reason, mut left }) => {
             allow(&mut left.collisions, &scenario.allowed_contacts);
             let report = RunReport::cut_short(experiment, &left, outcome_of(&reason), &reason.to_string());
-            JudgedRun { report, left: Some(Left::Arm(left)) }
+            JudgedRun { report, left: Some(Left::Arm(left)), refusal: Located::default() }
         }
-        Err(error) => failed(scenario, outcome_of(&error), &error.to_string()),
+        Err(error) => {
+            let refusal = Located::of(&error, scenario);
+            let run = failed(scenario, outcome_of(&error), &refusal.text());
+            JudgedRun { refusal, ..run }
+        }
     }
 }
 
@@ -68,14 +91,18 @@ fn plane(planar: &PlanarRun, scenario: &Scenario, progress: &dyn Progress) -> Ju
             let criteria = judge_planar(&left, &scenario.criteria);
             let wall_s = progress.elapsed_s() - started_s;
             let report = RunReport::of_planar(&planar.name, planar.seed, &left, &criteria, wall_s);
-            JudgedRun { report, left: Some(Left::Planar(Box::new(left))) }
+            JudgedRun { report, left: Some(Left::Planar(Box::new(left))), refusal: Located::default() }
         }
         Err(error) => failed(scenario, of_learning(&error), &error.to_string()),
     }
 }
 
 fn failed(scenario: &Scenario, outcome: Outcome, error: &str) -> JudgedRun {
-    JudgedRun { left: None, report: RunReport::failed(scenario.work.name(), scenario.work.seed(), outcome, error) }
+    JudgedRun {
+        left: None,
+        report: RunReport::failed(scenario.work.name(), scenario.work.seed(), outcome, error),
+        refusal: Located::default(),
+    }
 }
 
 /// How a command ends that cannot learn.
@@ -96,6 +123,7 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         SimulationError::Stopped { .. } | SimulationError::StoppedBefore { .. } => Outcome::TimeLimit,
         SimulationError::CutShort { reason, .. } => outcome_of(reason),
         SimulationError::Learning(error) => of_learning(error),
+        SimulationError::At { error, .. } => outcome_of(error),
         SimulationError::Several(errors) => errors.iter().map(outcome_of).max().unwrap_or(Outcome::InvalidInput),
         SimulationError::Demonstrations(DemonstrationError::Io { .. } | DemonstrationError::Invalid(_))
         | SimulationError::Urdf(_)
@@ -103,8 +131,6 @@ pub(super) fn outcome_of(error: &SimulationError) -> Outcome {
         | SimulationError::Snapshot(_)
         | SimulationError::Unreachable { .. }
         | SimulationError::Swing { .. }
-        | SimulationError::JointCounts(_)
-        | SimulationError::UnknownParts(_)
         | SimulationError::JointLimits(_)
         | SimulationError::World(_)
         | SimulationError::Scene(_)

@@ -20,12 +20,15 @@ struct Listed<'a> {
     description: Option<String>,
 }
 
-/// Lists scenarios with what each shows. One that cannot be used is listed as such and is no failure of this command.
+/// Lists scenarios with what each shows. One that cannot be used is listed as such and is no failure of this
+/// command; one that is not there is.
 pub(super) fn list(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> Outcome {
     let files = match select(paths, terminal) {
         Ok(files) => files,
         Err(outcome) => return outcome,
     };
+    let (files, missing): (Vec<_>, Vec<_>) = files.into_iter().partition(|file| file.exists());
+    missing.iter().for_each(|file| terminal.error(&format!("error: there is no file {}: check the path\n", file.display())));
     let options = options(global);
     let width = files.iter().map(|file| file.display().to_string().chars().count()).max().unwrap_or(0);
     for path in &files {
@@ -40,5 +43,5 @@ pub(super) fn list(paths: &[PathBuf], global: &Global, terminal: &Terminal) -> O
             (Format::Human, Err(_)) => terminal.result(&format!("{:<width$}  cannot be used: see cpdmp validate\n", path.display())),
         }
     }
-    Outcome::Passed
+    if missing.is_empty() { Outcome::Passed } else { Outcome::InvalidInput }
 }

@@ -28,6 +28,7 @@ mod learn;
 mod learning_args;
 mod list;
 mod load;
+mod located;
 mod man;
 mod merge;
 mod migrate;

@@ -68,7 +68,7 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     if !run.wants_folder() {
         drop(progress);
         match terminal.format {
-            Format::Human => terminal.error(&format!("error: {}\n", run.report.error.as_deref().unwrap_or_default())),
+            Format::Human => run.tell_refusal(terminal),
             Format::Json => terminal.result(&(run.report.to_json_line() + "\n")),
         }
         return run.report.outcome;

@@ -63,7 +63,7 @@ fn checked(arguments: &SweepArguments, global: &Global, terminal: &Terminal) -> 
         many => {
             terminal.note(&format!("checking {many} members of {path}\n"));
             let ready = |scenario: &Scenario| match beyond_the_file(scenario) {
-                Err((_, reason)) => Err(reason),
+                Err((_, located)) => Err(located.text()),
                 Ok(warnings) if global.deny_warnings && !warnings.is_empty() => Err(format!("--deny-warnings: {}", warnings.join("\n"))),
                 Ok(_) => Ok(()),
             };

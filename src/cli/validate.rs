@@ -7,11 +7,13 @@ use serde::Serialize;
 use super::args::{Format, Global};
 use super::judged_run::{of_learning, outcome_of};
 use super::load::options;
+use super::located::Located;
 use super::select::select;
 use super::terminal::Terminal;
+use crate::learning::LearningError;
 use crate::report::Outcome;
-use crate::scenario::{Diagnostic, Scenario, Work};
-use crate::simulation::{Setup, Silent};
+use crate::scenario::{Diagnostic, Scenario, Severity, Work};
+use crate::simulation::{Setup, Silent, SimulationError};
 
 /// What is known about one scenario.
 #[derive(Serialize)]
@@ -20,9 +22,9 @@ struct Checked<'a> {
     outcome: Outcome,
     exit_code: u8,
     scenario: Option<String>,
-    /// Faults and warnings of the scenario file.
+    /// Faults and warnings of the scenario file, and faults of the robot's.
     diagnostics: Vec<Diagnostic>,
-    /// Why the robot or the dataset cannot be used.
+    /// Why the robot or the dataset cannot be used, where no place in a file can be told.
     error: Option<String>,
     /// What is odd about the robot's file, and what a recorded dataset does not show.
     warnings: Vec<String>,
@@ -78,7 +80,10 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
             checked.diagnostics = scenario.warnings;
             match found {
                 Ok(warnings) => checked.warnings = warnings,
-                Err((_, error)) => checked.error = Some(error),
+                Err((_, Located { faults, elsewhere })) => {
+                    checked.diagnostics.splice(0..0, faults);
+                    checked.error = (!elsewhere.is_empty()).then(|| elsewhere.join("\n"));
+                }
             }
         }
     }
@@ -87,13 +92,22 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
 
 /// Loads the robot and the dataset that the scenario names and looks whether the arm can go its way; what is odd
 /// about the robot, and what the dataset does not show.
-pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outcome, String)> {
+pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outcome, Located)> {
     match &scenario.work {
-        Work::Planar(planar) => planar.check().map(|()| Vec::new()).map_err(|error| (of_learning(&error), error.to_string())),
+        Work::Planar(planar) => {
+            let elsewhere = |error: &LearningError| Located { faults: Vec::new(), elsewhere: vec![error.to_string()] };
+            planar.check().map(|()| Vec::new()).map_err(|error| (of_learning(&error), elsewhere(&error)))
+        }
         Work::Arm(experiment) => {
-            let checked = Setup::new(experiment).and_then(|setup| Ok((setup.preflight(&Silent)?, setup)));
-            let (of_dataset, setup) = checked.map_err(|error| (outcome_of(&error), error.to_string()))?;
-            Ok(setup.warnings.iter().map(ToString::to_string).chain(of_dataset).collect())
+            let located = |error: &SimulationError| (outcome_of(error), Located::of(error, scenario));
+            let setup = Setup::new(experiment).map_err(|error| located(&error))?;
+            match setup.preflight(&Silent) {
+                Ok(of_dataset) => Ok(setup.warnings.iter().map(ToString::to_string).chain(of_dataset).collect()),
+                Err(error) => {
+                    let (outcome, located) = located(&error);
+                    Err((outcome, located.with(&setup.warnings)))
+                }
+            }
         }
     }
 }
@@ -107,7 +121,8 @@ fn tell(checked: &Checked<'_>, terminal: &Terminal) {
         terminal.error(&format!("error: {error}\n"));
     }
     checked.warnings.iter().for_each(|warning| terminal.note(&format!("{warning}\n")));
-    let faults = checked.diagnostics.len() + usize::from(checked.error.is_some());
+    let placed = checked.diagnostics.iter().filter(|found| found.severity == Severity::Error).count();
+    let faults = placed + checked.error.as_ref().map_or(0, |error| error.lines().count());
     let verdict = match (checked.outcome, faults) {
         (Outcome::Passed, _) => "ok".to_owned(),
         (_, 1) => "1 fault".to_owned(),

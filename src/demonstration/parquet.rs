@@ -36,6 +36,14 @@ pub(super) fn read(bytes: &[u8], path: &Path, place: &str) -> Result<Table, Demo
             }
             Ok(Table { place: place.to_owned(), columns, rows: (1..=samples).collect(), header: true })
         }
+        Ok(Err(error)) if error.to_string().contains("Disabled feature") => {
+            let packed = "packed in a way that this program does not unpack";
+            Err(DemonstrationError::Invalid(vec![Fault::new(
+                place,
+                format!("{packed} ({error})"),
+                "snappy, zstd, lz4, gzip or no packing",
+            )]))
+        }
         Ok(Err(error)) => invalid(format!("a damaged file ({error})")),
         Err(_) => invalid("a damaged file".to_owned()),
     }

@@ -51,7 +51,7 @@ fn variation(
     }
     let usable = found.is_empty();
     faults.extend(found);
-    usable.then(|| Variation { name, changes, experiment: build::experiment(&changed, sources) })
+    usable.then(|| Variation { name, changes, experiment: build::experiment(&changed) })
 }
 
 /// Keys that would change what is shared with the run; no key at all.

@@ -1,7 +1,6 @@
 //! A filled tree to the settings of the rooms below.
 
 use super::load::RecordingPlan;
-use super::source::Sources;
 use super::tree::Node;
 use super::{build_criteria, build_learning, build_scene};
 use crate::control::{Feedback, ImpedanceSettings};
@@ -11,8 +10,8 @@ use crate::robot::EffortModel;
 use crate::simulation::{DemonstrationSource, ExecutionPlan, Experiment, Help, MotionSpace, RobotSettings, TraceSettings};
 use crate::world::{HumanSettings, Parameters, PhysicsSettings, SensorSettings};
 
-/// The experiment that a scenario describes; `sources` are what it was read from.
-pub(super) fn experiment(scenario: &Node, sources: &Sources) -> Experiment {
+/// The experiment that a scenario describes.
+pub(super) fn experiment(scenario: &Node) -> Experiment {
     let simulation = scenario.section("simulation");
     let learning = scenario.section("learning");
     let human = scenario.section("human");
@@ -46,7 +45,7 @@ pub(super) fn experiment(scenario: &Node, sources: &Sources) -> Experiment {
             snapshot_every_steps: scenario.section("recording").count("snapshot_every_steps"),
             detail: None,
         },
-        named_parts: build_criteria::named_parts(scenario, sources),
+        named_parts: build_criteria::named_parts(scenario),
     }
 }
 

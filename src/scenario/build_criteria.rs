@@ -1,7 +1,5 @@
 //! A filled tree to what a run must show.
 
-use super::diagnostic::line_and_column;
-use super::source::{Origin, Sources};
 use super::tree::Node;
 use crate::check::{AllowedContact, CountsFrom, CriterionKind, CriterionSpec, Expectation, Followed, PlanarSettings};
 use crate::planar::Method;
@@ -20,27 +18,18 @@ pub(super) fn allowed_contacts(scenario: &Node) -> Vec<AllowedContact> {
 }
 
 /// Links and objects that criteria about distances and allowed contacts name.
-pub(super) fn named_parts(scenario: &Node, sources: &Sources) -> Vec<NamedPart> {
+pub(super) fn named_parts(scenario: &Node) -> Vec<NamedPart> {
     let part = |list: &str, table: &Node, key: &str, node: &Node| {
-        let key = format!("{list}.{}.{key}", table.text("name"));
-        Some(NamedPart { key, name: node.as_text()?.to_owned(), place: place(node.origin, sources) })
+        Some(NamedPart { key: format!("{list}.{}.{key}", table.text("name")), name: node.as_text()?.to_owned() })
     };
     let distances = scenario.tables("criterion").iter().filter(|table| table.text("kind") == "clearance");
-    let links = distances.flat_map(|table| table.get("links").map_or(&[][..], Node::items).iter().map(move |link| (table, link)));
-    let links = links.filter_map(|(table, link)| part("criterion", table, "links", link));
+    let links = distances.flat_map(|table| {
+        let links = table.get("links").map_or(&[][..], Node::items).iter().enumerate();
+        links.filter_map(move |(index, link)| part("criterion", table, &format!("links.{index}"), link))
+    });
     let contacts = scenario.tables("allowed_contact").iter().flat_map(|table| ["a", "b"].map(|key| (table, key)));
     let ends = contacts.filter_map(|(table, key)| part("allowed_contact", table, key, table.get(key)?));
     links.chain(ends).collect()
-}
-
-/// Where it was typed, as a compiler would say it.
-fn place(origin: Origin, sources: &Sources) -> String {
-    let source = sources.get(origin.source);
-    if sources.is_override(origin) {
-        return format!("{} {}", source.name, source.text);
-    }
-    let (line, column) = line_and_column(&source.text, origin.start.min(source.text.len()));
-    format!("{}:{line}:{column}", source.name)
 }
 
 fn method(table: &Node) -> Option<Method> {

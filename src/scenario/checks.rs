@@ -23,6 +23,7 @@ pub(super) fn check(scenario: &Node) -> Vec<Fault> {
     references(scenario, &mut faults);
     nothing_asked(scenario, &mut faults);
     about_nothing(scenario, &mut faults);
+    contacts_of_one(scenario, &mut faults);
     square_cabinets(scenario, &mut faults);
     handles_on_doors(scenario, &mut faults);
     planar(scenario, &mut faults);
@@ -61,6 +62,19 @@ fn about_nothing(scenario: &Node, faults: &mut Vec<Fault>) {
         if node.items().is_empty() && matches!(node.value, Value::List(_)) {
             let fault = Fault::at(Code::WrongLength, node.origin, "this criterion is about no object: it could not fail");
             faults.push(fault.expected("the name of an object, or of several"));
+        }
+    }
+}
+
+/// Nothing touches itself: such a contact would allow nothing.
+fn contacts_of_one(scenario: &Node, faults: &mut Vec<Fault>) {
+    for table in list(scenario, "allowed_contact") {
+        if let (Some(a), Some(b)) = (table.get("a"), table.get("b"))
+            && a.as_text().is_some()
+            && a.as_text() == b.as_text()
+        {
+            let fault = Fault::at(Code::Conflict, b.origin, "both ends of this contact are the same part: it would allow nothing");
+            faults.push(fault.expected("two parts"));
         }
     }
 }

@@ -40,6 +40,30 @@ pub struct Diagnostic {
 #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
 pub struct InvalidScenario(pub Vec<Diagnostic>);
 
+impl Diagnostic {
+    /// A fault at a line of another file, whose `text` shows it. Without a line it is the file's as a whole.
+    #[must_use]
+    pub fn at_line(
+        code: Code,
+        severity: Severity,
+        file: &str,
+        (line, text): (Option<usize>, &str),
+        message: String,
+        help: Option<String>,
+    ) -> Self {
+        let (mut start, mut here) = (0, "");
+        if let Some(number) = line {
+            let mut lines = text.split_inclusive('\n');
+            start = lines.by_ref().take(number.saturating_sub(1)).map(str::len).sum();
+            here = lines.next().unwrap_or_default().trim_end();
+        }
+        let indent = here.len() - here.trim_start().len();
+        let span = (!here.is_empty()).then(|| start + indent..start + here.len());
+        let column = line.map(|_| here[..indent].chars().count() + 1);
+        Self { code, severity, file: file.to_owned(), line, column, span, message, expected: None, help, text: Arc::from(text) }
+    }
+}
+
 impl fmt::Display for Diagnostic {
     /// `file:line:column: error[code]: message; expected …; help`, on one line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -128,6 +152,16 @@ pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_of_another_file_is_shown_without_its_indent() {
+        let told = |line, text| Diagnostic::at_line(Code::Robot, Severity::Error, "r.urdf", (line, text), "m".to_owned(), None);
+        let found = told(Some(2), "<a>\n  <bü/>\r\n</a>");
+        assert_eq!((found.line, found.column, &found.text[found.span.clone().expect("a span")]), (Some(2), Some(3), "<bü/>"));
+        for (line, text) in [(None, "<a/>"), (Some(9), "<a/>"), (Some(1), "")] {
+            assert_eq!((told(line, text).line, told(line, text).span), (line, None));
+        }
+    }
 
     #[test]
     fn lines_and_columns_count_characters_from_one() {

@@ -49,11 +49,15 @@ pub enum Code {
     More,
     /// A parameter of which the demonstrations say nothing, or nothing that far away.
     Untaught,
+    /// What the robot cannot do or the scene cannot be.
+    Scene,
+    /// A description of a robot that cannot be used.
+    Robot,
 }
 
 impl Code {
     /// Every code, in the order in which `cpdmp explain` lists them.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 20] = [
         Self::Unreadable,
         Self::Encoding,
         Self::Syntax,
@@ -72,6 +76,8 @@ impl Code {
         Self::Conflict,
         Self::More,
         Self::Untaught,
+        Self::Scene,
+        Self::Robot,
     ];
 
     /// Its name and its meaning in one sentence.
@@ -95,6 +101,10 @@ impl Code {
             Self::Conflict => ("conflict", "settings that contradict each other"),
             Self::More => ("more", "there are more faults than are shown"),
             Self::Untaught => ("untaught", "a parameter that the demonstrations do not vary, or not that far (a warning)"),
+            Self::Scene => {
+                ("scene", "what the scenario asks for is not possible with its robot or in its scene: a pose, a way, a place, a name")
+            }
+            Self::Robot => ("robot", "the robot's description (URDF) cannot be used, or says something odd (a warning)"),
         }
     }
 }

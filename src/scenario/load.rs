@@ -132,14 +132,14 @@ impl Scenario {
             Some(mut filled) if diagnostics.iter().all(|found| found.severity == Severity::Warning) => {
                 filled.take("sweep");
                 Ok(Self {
-                    work: work(&filled, sources),
+                    work: work(&filled),
                     criteria: build_criteria::criteria(&filled),
                     beside: Vec::new(),
                     allowed_contacts: build_criteria::allowed_contacts(&filled),
-                    places: Places::of(&filled, sources),
                     recording: build::recording(&filled),
                     description: filled.text("description").to_owned(),
-                    resolved: resolved::write(&check_planar::without_arm(filled)),
+                    resolved: resolved::write(&check_planar::without_arm(filled.clone())),
+                    places: Places::of(filled, sources.clone()),
                     files: sources.files(),
                     warnings: diagnostics,
                 })
@@ -149,10 +149,10 @@ impl Scenario {
     }
 }
 
-fn work(filled: &Node, sources: &Sources) -> Work {
+fn work(filled: &Node) -> Work {
     match filled.get("planar") {
         Some(_) => Work::Planar(Box::new(build_planar::planar(filled))),
-        None => Work::Arm(Box::new(build::experiment(filled, sources))),
+        None => Work::Arm(Box::new(build::experiment(filled))),
     }
 }
 
@@ -371,10 +371,8 @@ mod tests {
         let typed = load(&format!("{BARE}{rich}{}", criteria.collect::<String>()));
         let again = load(&typed.resolved);
         assert_eq!(again.resolved, typed.resolved);
-        // All but where its words stand in the file.
         let meant = |scenario: &Scenario| {
-            let Work::Arm(mut experiment) = scenario.work.clone() else { panic!("it has an arm") };
-            experiment.named_parts.iter_mut().for_each(|part| part.place.clear());
+            let Work::Arm(experiment) = &scenario.work else { panic!("it has an arm") };
             format!("{experiment:?}")
         };
         assert_eq!(meant(&again), meant(&typed));

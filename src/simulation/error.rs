@@ -46,15 +46,17 @@ pub enum SimulationError {
         /// What to do.
         help: &'static str,
     },
-    /// Lists of the scenario have another length than the robot's arms, one sentence each.
-    #[error("{}", .0.join("\n"))]
-    JointCounts(Vec<String>),
-    /// Neither the robot nor the scene has parts of these names, one sentence each.
-    #[error("{}", .0.join("\n"))]
-    UnknownParts(Vec<String>),
     /// Postures are beyond the limits of joints, one sentence each.
     #[error("{}", .0.join("\n"))]
     JointLimits(Vec<String>),
+    /// What is wrong comes from one part of the scenario.
+    #[error("{error}")]
+    At {
+        /// The part, called as in `--set`: `object.toy`, `teaching.waypoint.2` (counted from 0).
+        key: String,
+        /// What is wrong.
+        error: Box<SimulationError>,
+    },
     /// Several things are wrong at once.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Several(Vec<SimulationError>),
@@ -104,4 +106,33 @@ pub enum SimulationError {
     /// A movement that is to be judged does not fit the robot.
     #[error("the trajectory cannot be judged: {0}")]
     Trajectory(String),
+}
+
+impl SimulationError {
+    /// The same, said of the part `key` of the scenario.
+    pub(super) fn at(self, key: impl Into<String>) -> Self {
+        Self::At { key: key.into(), error: Box::new(self) }
+    }
+
+    /// All of them as one.
+    ///
+    /// # Errors
+    /// When there are any.
+    pub(super) fn all(mut errors: Vec<Self>) -> Result<(), Self> {
+        match errors.len() {
+            0 => Ok(()),
+            1 => Err(errors.remove(0)),
+            _ => Err(Self::Several(errors)),
+        }
+    }
+
+    /// The single faults that it tells of, each with the part of the scenario from which it comes, if that is known.
+    #[must_use]
+    pub fn parts(&self) -> Vec<(Option<&str>, &Self)> {
+        match self {
+            Self::Several(errors) => errors.iter().flat_map(Self::parts).collect(),
+            Self::At { key, error } => error.parts().into_iter().map(|(inner, error)| (inner.or(Some(key)), error)).collect(),
+            _ => vec![(None, self)],
+        }
+    }
 }

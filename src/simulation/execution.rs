@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::person::{Person, helper};
-use super::preflight::starts_apart;
 use super::setup::Setup;
 use super::snapshot::{Kept, Rest, TakenUp};
 use super::step_loop::{Phase, Published, StepLoop};
@@ -52,7 +51,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, from: Option<&Snapshot>, pro
     let goal = setup.tool_at(execution.goal().as_slice()).translation.vector;
     let (posture, follower) = setup.follower(&execution)?;
 
-    let mut world = starts_apart(setup.world(&experiment.parameters, &posture, true), "the skill's start")?;
+    let mut world = setup.starts_apart(setup.world(&experiment.parameters, &posture, true), "the skill's start")?;
     let step_s = experiment.physics.step_s;
     let feedback = (experiment.execution.feedback, setup.arm());
     let mut controller = SkillController::new(skill, execution, follower, setup.observer(), feedback, step_s)?;

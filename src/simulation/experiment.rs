@@ -50,12 +50,10 @@ pub struct Experiment {
 /// A name that stands for a link of the robot or an object.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedPart {
-    /// The key that it is the value of.
+    /// The key that it is the value of, with its number in a list: `criterion.apart.links.0`.
     pub key: String,
     /// The name.
     pub name: String,
-    /// `FILE:LINE:COLUMN` where it was typed; a flag when it came from one.
-    pub place: String,
 }
 
 /// In which coordinates a motion is learned and executed.

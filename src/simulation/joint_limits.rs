@@ -12,10 +12,11 @@ impl Setup {
     /// When they are not: every joint that is beyond a limit.
     pub(super) fn postures_within_limits(&self) -> Result<(), SimulationError> {
         let settings = &self.experiment.robot;
-        let mut faults = self.beyond_limits("robot.rest_posture_rad", &settings.rest_posture_rad, 0.0);
+        let (rest, idle_rest) = ("robot.rest_posture_rad", "robot.idle_posture_rad");
+        let working = self.beyond_limits(rest, &settings.rest_posture_rad, 0.0).into_iter().map(|told| (rest, told));
         let idle = self.idle().into_iter().flat_map(ArmModel::chain_joints).zip(settings.idle_posture_rad.iter().copied());
-        faults.extend(beyond("robot.idle_posture_rad", idle, 0.0));
-        if faults.is_empty() { Ok(()) } else { Err(SimulationError::JointLimits(faults)) }
+        let idle = beyond(idle_rest, idle, 0.0).into_iter().map(|told| (idle_rest, told));
+        SimulationError::all(working.chain(idle).map(|(key, told)| SimulationError::JointLimits(vec![told]).at(key)).collect())
     }
 
     /// Every joint of the working arm that `posture_rad`, called `what`, puts more than `slack_rad` beyond a limit.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::guide_path::GuidePath;
-use super::setup::Setup;
+use super::setup::{PoseName, Setup};
 use super::space::{PLACE_COLUMNS, first_pose};
 use super::teaching::settings_of;
 use super::{DemonstrationSource, MotionSpace, Progress, SimulationError, TeachingPlan};
@@ -20,7 +20,8 @@ impl Setup {
     /// experiment. Returns warnings about a dataset.
     ///
     /// # Errors
-    /// The postures that are wrong, and the first other thing that is.
+    /// The postures that are wrong; every object that does not stand or has its handle beside its door; of every part of the way that cannot be
+    /// gone or does not begin apart the first lesson in which it is so.
     pub fn preflight(&self, progress: &dyn Progress) -> Result<Vec<String>, SimulationError> {
         let scene = match &self.experiment.demonstrations {
             DemonstrationSource::Teach(plan) => self.lessons_can_be_led(plan, progress).map(|()| Vec::new()),
@@ -44,7 +45,7 @@ impl Setup {
             let posture = self.posture(&start, "the start of the demonstrations", RECORD_AGAIN)?;
             let own: Vec<(String, f64)> = lesson.theta_m.iter().chain(&lesson.theta_f).cloned().collect();
             let built = self.world(&self.experiment.parameters.with(&own), &posture, false);
-            starts_apart(built, "the start of the demonstrations")?;
+            self.starts_apart(built, "the start of the demonstrations")?;
         }
         Ok(self.undemonstrated(&dataset))
     }
@@ -109,11 +110,24 @@ impl Setup {
     /// Goes every lesson's way in thought, and the one that a lesson would take in the setting of the execution, and builds their worlds.
     fn lessons_can_be_led(&self, plan: &TeachingPlan, progress: &dyn Progress) -> Result<(), SimulationError> {
         let lessons = settings_of(plan, &self.experiment.parameters);
+        let mut found: Vec<SimulationError> = Vec::new();
+        let mut note = |led: Result<(), SimulationError>| match led {
+            Err(stopped @ SimulationError::StoppedBefore { .. }) => Err(stopped),
+            Err(error) => {
+                let known = |key: &str| found.iter().flat_map(SimulationError::parts).any(|(other, _)| other == Some(key));
+                if !error.parts().iter().all(|(key, _)| key.is_some_and(known)) {
+                    found.push(error);
+                }
+                Ok(())
+            }
+            Ok(()) => Ok(()),
+        };
         for (number, parameters) in lessons.iter().enumerate() {
-            self.can_be_led(plan, parameters, (number as u64, &format!("lesson {}", number + 1)), progress)?;
+            note(self.can_be_led(plan, parameters, (number as u64, &format!("lesson {}", number + 1)), progress))?;
         }
         let exact = TeachingPlan { position_spread_m: 0.0, timing_spread: 0.0, ..plan.clone() };
-        self.can_be_led(&exact, &self.experiment.parameters, (0, "a lesson in the setting of the execution"), progress)
+        note(self.can_be_led(&exact, &self.experiment.parameters, (0, "a lesson in the setting of the execution"), progress))?;
+        SimulationError::all(found)
     }
 
     fn can_be_led(
@@ -127,43 +141,47 @@ impl Setup {
         let mut variation = math::stream(self.experiment.seed, "human", number);
         let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
         let start = self.can_go(plan, &path, whose, progress)?;
-        starts_apart(self.world(parameters, &start, false), whose).map(|_| ())
+        self.starts_apart(self.world(parameters, &start, false), whose).map(|_| ())
+    }
+
+    /// A world in which nothing starts inside something else; `whose` start it is, the errors say.
+    pub(super) fn starts_apart(&self, built: Result<World, SimulationError>, whose: &str) -> Result<World, SimulationError> {
+        let Err(SimulationError::World(WorldError::Overlap(pairs))) = built else { return built };
+        let objects = &self.experiment.objects;
+        let object = |part: &str| objects.iter().find(|object| part.split('.').next() == Some(object.name.as_str()));
+        let told = pairs.into_iter().map(|pair| {
+            let culprit = object(&pair.a).or_else(|| object(&pair.b)).map(|object| format!("object.{}", object.name));
+            let error = SimulationError::Scene(format!("{whose}: {}", WorldError::Overlap(vec![pair])));
+            PoseName { what: String::new(), key: culprit }.told(error)
+        });
+        Err(SimulationError::Several(told.collect()))
     }
 
     /// Everything that can fall lies on a table: there is no floor. Handles are on their doors.
     fn stands(&self, parameters: &Parameters) -> Result<(), SimulationError> {
         let objects = &self.experiment.objects;
-        for object in objects {
-            let ObjectKind::Cabinet(cabinet) = &object.kind else { continue };
+        let beside_door = objects.iter().filter_map(|object| {
+            let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
             let hinge_y = object.center(parameters).y;
-            if !cabinet.has_handle_on_door(hinge_y, parameters) {
-                let (distance, width) = (cabinet.handle_distance_m(hinge_y, parameters), cabinet.door_size_m.x);
+            let (distance, width) = (cabinet.handle_distance_m(hinge_y, parameters), cabinet.door_size_m.x);
+            let told = || {
                 let what = format!("the handle of `{}` is {distance:.3} m from the hinge, but its door is {width} m wide", object.name);
-                return Err(SimulationError::Scene(format!("{what}: change `handle_lateral_m` or `door_size_m`")));
-            }
-        }
-        let hanging = objects.iter().filter(|o| o.is_free()).find(|o| !objects.iter().any(|table| table.carries(o, parameters)));
-        match hanging {
-            None => Ok(()),
-            Some(object) => {
-                let center = object.center(parameters);
-                let place = format!("[{:.3}, {:.3}] m", center.x, center.y);
-                Err(SimulationError::Scene(format!(
-                    "object `{}` at {place} lies on no table and would fall for ever: put it on a table, or give the table another size",
-                    object.name
-                )))
-            }
-        }
+                let told = format!("{what}: change `handle_lateral_m` or `door_size_m`");
+                SimulationError::Scene(told).at(format!("object.{}.handle_lateral_m", object.name))
+            };
+            (!cabinet.has_handle_on_door(hinge_y, parameters)).then(told)
+        });
+        let hanging = objects.iter().filter(|o| o.is_free() && !objects.iter().any(|table| table.carries(o, parameters)));
+        let falling = hanging.map(|object| {
+            let center = object.center(parameters);
+            let place = format!("[{:.3}, {:.3}] m", center.x, center.y);
+            let what = format!("object `{}` at {place} lies on no table and would fall for ever", object.name);
+            let told = format!("{what}: put it on a table, or give the table another size");
+            SimulationError::Scene(told).at(format!("object.{}", object.name))
+        });
+        SimulationError::all(beside_door.chain(falling).collect())
     }
 }
 
 /// What helps when the arm cannot be where recorded demonstrations begin.
 const RECORD_AGAIN: &str = "record them with this robot, or describe the one that they were recorded with";
-
-/// A world in which nothing starts inside something else; `whose` start it is, the error says.
-pub(super) fn starts_apart(built: Result<World, SimulationError>, whose: &str) -> Result<World, SimulationError> {
-    match built {
-        Err(SimulationError::World(overlap @ WorldError::Overlap { .. })) => Err(SimulationError::Scene(format!("{whose}: {overlap}"))),
-        built => built,
-    }
-}

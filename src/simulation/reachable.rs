@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Translation3};
 
 use super::guide_path::GuidePath;
-use super::setup::{Setup, unreachable};
+use super::setup::{PoseName, Setup, unreachable};
 use super::space::PLACE_COLUMNS;
 use super::{MotionSpace, Progress, SimulationError, TeachingPlan};
 use crate::demonstration::Trajectory;
@@ -35,7 +35,7 @@ impl Setup {
         whose: &str,
         progress: &dyn Progress,
     ) -> Result<Vec<f64>, SimulationError> {
-        let start = self.posture(&path.at(0.0).pose, &place_name(plan, path, 0.0, whose), MOVE)?;
+        let start = self.posture(&path.at(0.0).pose, place_name(plan, path, 0.0, whose), MOVE)?;
         let times_s = (1..=(plan.duration_s / SAMPLE_S).ceil() as usize).map(|k| (k as f64 * SAMPLE_S).min(plan.duration_s));
         let poses = times_s.map(|time_s| (time_s, path.at(time_s).pose));
         self.follow(&start, poses, (&|time_s| place_name(plan, path, time_s, whose), MOVE), progress)?;
@@ -50,11 +50,11 @@ impl Setup {
         let last = plan.samples() - 1;
         let every = (SAMPLE_S / plan.duration_s() * last as f64).round().max(1.0) as usize;
         let rows = (0..last).step_by(every).chain([last]);
-        let name = |time_s: f64| format!("the skill's plan at {time_s:.2} s");
+        let name = |time_s: f64| PoseName::from(format!("the skill's plan at {time_s:.2} s").as_str());
         if self.experiment.space == MotionSpace::Joint {
             let joints = plan.select(&self.taught_motion())?;
             let angles = |row: usize| joints.row(row).iter().copied().collect::<Vec<f64>>();
-            let beyond = |row: usize| self.beyond_limits(&name(plan.times_s()[row]), &angles(row), STOP_RAD);
+            let beyond = |row: usize| self.beyond_limits(&name(plan.times_s()[row]).what, &angles(row), STOP_RAD);
             return rows.map(beyond).find(|faults| !faults.is_empty()).map_or(Ok(()), |faults| Err(SimulationError::JointLimits(faults)));
         }
         let (places, turns) = (plan.select(&PLACE_COLUMNS)?, plan.orientations());
@@ -73,24 +73,26 @@ impl Setup {
         &self,
         start: &[f64],
         poses: impl Iterator<Item = (f64, Isometry3<f64>)>,
-        (name, help): (&dyn Fn(f64) -> String, &'static str),
+        (name, help): (&dyn Fn(f64) -> PoseName, &'static str),
         progress: &dyn Progress,
     ) -> Result<(), SimulationError> {
         let mut arm = self.arm();
         let (mut q, mut before) = (start.to_vec(), start.to_vec());
         for (time_s, pose) in poses {
             if !progress.may_go_on() {
-                return Err(SimulationError::StoppedBefore { next: format!("{} was looked at", name(time_s)) });
+                return Err(SimulationError::StoppedBefore { next: format!("{} was looked at", name(time_s).what) });
             }
             let outcome = arm.reach_on(&pose, &mut q);
             if !outcome.converged {
-                return Err(unreachable(&arm, &outcome, &q, &name(time_s), help));
+                return Err(unreachable(&arm, &outcome, &q, name(time_s), help));
             }
             let turns = q.iter().zip(&before).map(|(now, before)| (now - before).abs()).enumerate();
             let (joint, turn) = turns.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
             if turn > SWING_RAD {
                 let joint = arm.joint_name(joint).to_owned();
-                return Err(SimulationError::Swing { what: name(time_s), joint, turn_deg: turn.to_degrees(), within_s: SAMPLE_S, help });
+                let name = name(time_s);
+                let (what, turn_deg) = (name.what.clone(), turn.to_degrees());
+                return Err(name.told(SimulationError::Swing { what, joint, turn_deg, within_s: SAMPLE_S, help }));
             }
             before.copy_from_slice(&q);
         }
@@ -99,12 +101,14 @@ impl Setup {
 }
 
 /// `way-point 2 (at block_1) of lesson 3`, or what lies between two of them.
-fn place_name(plan: &TeachingPlan, path: &GuidePath, time_s: f64, whose: &str) -> String {
+fn place_name(plan: &TeachingPlan, path: &GuidePath, time_s: f64, whose: &str) -> PoseName {
     let at = |index: usize| plan.waypoints[index].at.as_deref().unwrap_or("the world");
     let last = plan.waypoints.len() - 1;
     let before = path.times_s().partition_point(|t| *t <= time_s).saturating_sub(1);
-    if time_s - path.times_s()[before] < SAMPLE_S || before == last {
-        return format!("way-point {} (at {}) of {whose}", before + 1, at(before));
-    }
-    format!("the way to way-point {} (at {}) of {whose}, at {time_s:.2} s,", before + 2, at(before + 1))
+    let (index, what) = if time_s - path.times_s()[before] < SAMPLE_S || before == last {
+        (before, format!("way-point {} (at {}) of {whose}", before + 1, at(before)))
+    } else {
+        (before + 1, format!("the way to way-point {} (at {}) of {whose}, at {time_s:.2} s,", before + 2, at(before + 1)))
+    };
+    PoseName { what, key: Some(format!("teaching.waypoint.{index}")) }
 }

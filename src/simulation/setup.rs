@@ -31,16 +31,14 @@ fn check_lengths(settings: &RobotSettings, joints: usize, idle_joints: Option<us
         ("robot.impedance.stiffness_nm_per_rad", impedance.stiffness_nm_per_rad.len(), &settings.tool_link, Some(joints)),
         ("robot.impedance.damping_nms_per_rad", impedance.damping_nms_per_rad.len(), &settings.tool_link, Some(joints)),
         ("robot.idle_posture_rad", settings.idle_posture_rad.len(), &settings.idle_tool_link, idle_joints),
-        ("robot.impedance (both arms share it)", impedance.stiffness_nm_per_rad.len(), &settings.idle_tool_link, idle_joints),
+        ("robot.impedance.stiffness_nm_per_rad", impedance.stiffness_nm_per_rad.len(), &settings.idle_tool_link, idle_joints),
     ];
-    let wrong: Vec<String> = lists
-        .into_iter()
-        .filter_map(|(key, found, link, joints)| {
-            let joints = joints.filter(|joints| *joints != found)?;
-            Some(format!("{key} has {found} numbers, but the arm that ends in `{link}` has {joints} joints: give one number per joint"))
-        })
-        .collect();
-    if wrong.is_empty() { Ok(()) } else { Err(SimulationError::JointCounts(wrong)) }
+    let wrong = lists.into_iter().filter_map(|(key, found, link, joints)| {
+        let joints = joints.filter(|joints| *joints != found)?;
+        let told = format!("{key} has {found} numbers, but the arm that ends in `{link}` has {joints} joints: give one number per joint");
+        Some(SimulationError::Scene(told).at(key))
+    });
+    SimulationError::all(wrong.collect())
 }
 
 /// Every part that criteria and allowed contacts name is a link of the robot, an object, or one of an object's parts, and no two are called the
@@ -49,21 +47,19 @@ fn check_parts(experiment: &Experiment, robot: &RobotModel) -> Result<(), Simula
     let links = || robot.frames.iter().map(|frame| frame.name.as_str());
     let is_object = |name: &str| experiment.objects.iter().any(|object| name.split('.').next() == Some(object.name.as_str()));
     let unknown = experiment.named_parts.iter().filter(|part| !is_object(&part.name) && !links().any(|link| link == part.name));
-    let told: Vec<String> = unknown
-        .map(|NamedPart { key, name, place }| {
-            let near = robot::nearest_name(name, links().chain(experiment.objects.iter().map(|object| object.name.as_str())));
-            let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-            format!("{place}: {key}: the robot has no link `{name}`, and the scene no object of that name{help}")
-        })
-        .collect();
+    let told = unknown.map(|NamedPart { key, name }| {
+        let near = robot::nearest_name(name, links().chain(experiment.objects.iter().map(|object| object.name.as_str())));
+        let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        SimulationError::Scene(format!("the robot has no link `{name}`, and the scene no object of that name{help}")).at(key)
+    });
     let twins = experiment.objects.iter().filter(|object| links().any(|link| link == object.name)).map(|object| {
-        format!(
+        let told = format!(
             "object `{0}`: a link of the robot is called `{0}` too, and what is said of one would hold for both: name it otherwise",
             object.name
-        )
+        );
+        SimulationError::Scene(told).at(format!("object.{}", object.name))
     });
-    let told: Vec<String> = told.into_iter().chain(twins).collect();
-    if told.is_empty() { Ok(()) } else { Err(SimulationError::UnknownParts(told)) }
+    SimulationError::all(told.chain(twins).collect())
 }
 
 /// The built-in robot with the tool that the experiment names.
@@ -87,19 +83,45 @@ fn load(path: &Path, settings: &RobotSettings) -> Result<Loaded, SimulationError
     Ok(robot::load(path, &LoadOptions { attachments: vec![tool], ..options })?)
 }
 
+/// What a pose is called in an error.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PoseName {
+    /// In words.
+    pub what: String,
+    /// The part of the scenario that asks for it, if there is one.
+    pub key: Option<String>,
+}
+
+impl From<&str> for PoseName {
+    fn from(what: &str) -> Self {
+        Self { what: what.to_owned(), key: None }
+    }
+}
+
+impl PoseName {
+    /// The error, said of the part of the scenario that asks for the pose.
+    pub(super) fn told(self, error: SimulationError) -> SimulationError {
+        match self.key {
+            Some(key) => error.at(key),
+            None => error,
+        }
+    }
+}
+
 /// The error of a pose that `arm` does not reach: `q` is as near as it comes; `help` is what to do.
-pub(super) fn unreachable(arm: &ArmModel, outcome: &IkOutcome, q: &[f64], what: &str, help: &'static str) -> SimulationError {
+pub(super) fn unreachable(arm: &ArmModel, outcome: &IkOutcome, q: &[f64], name: PoseName, help: &'static str) -> SimulationError {
     let joint = match outcome.limiting_joint {
         Some(index) => format!("with joint `{}` at its limit", arm.joint_name(index)),
         None => format!("with joint `{}` the nearest to its limit", arm.nearest_to_limit(q)),
     };
-    SimulationError::Unreachable {
-        what: what.into(),
+    let unreachable = SimulationError::Unreachable {
+        what: name.what.clone(),
         position_mm: outcome.position_error_m * 1e3,
         angle_deg: outcome.orientation_error_rad.to_degrees(),
         joint,
         help,
-    }
+    };
+    name.told(unreachable)
 }
 
 impl Setup {
@@ -123,8 +145,8 @@ impl Setup {
                 experiment.physics.gravity_m_per_s2,
             )?),
         };
-        check_lengths(settings, arm.joints(), idle.as_ref().map(ArmModel::joints))?;
-        check_parts(experiment, &loaded.model)?;
+        let lengths = check_lengths(settings, arm.joints(), idle.as_ref().map(ArmModel::joints));
+        SimulationError::all([lengths, check_parts(experiment, &loaded.model)].into_iter().filter_map(Result::err).collect())?;
         Ok(Self { experiment: experiment.clone(), robot: loaded.model, warnings: loaded.warnings, arm, idle })
     }
 
@@ -170,12 +192,17 @@ impl Setup {
         EffortSensors::new(&self.experiment.robot.sensor, self.arm.joints(), self.experiment.seed, run)
     }
 
-    /// Joint angles at which the tool is at `base_from_tool`; in the error, `what` names the pose and `help` says what to do.
-    pub(super) fn posture(&self, base_from_tool: &Isometry3<f64>, what: &str, help: &'static str) -> Result<Vec<f64>, SimulationError> {
+    /// Joint angles at which the tool is at `base_from_tool`; in the error, the pose is called `name`, and `help` says what to do.
+    pub(super) fn posture(
+        &self,
+        base_from_tool: &Isometry3<f64>,
+        name: impl Into<PoseName>,
+        help: &'static str,
+    ) -> Result<Vec<f64>, SimulationError> {
         let mut arm = self.arm();
         let mut q = vec![0.0; arm.joints()];
         let outcome = arm.reach(base_from_tool, &mut q);
-        if outcome.converged { Ok(q) } else { Err(unreachable(&arm, &outcome, &q, what, help)) }
+        if outcome.converged { Ok(q) } else { Err(unreachable(&arm, &outcome, &q, name.into(), help)) }
     }
 
     /// The joints of the working arm, from the shoulder.

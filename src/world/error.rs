@@ -22,11 +22,8 @@ pub enum WorldError {
         reason: String,
     },
     /// Things stand inside each other before the first step.
-    #[error("at the start {pairs}: move the objects or the arm apart")]
-    Overlap {
-        /// Which, and how deep.
-        pairs: String,
-    },
+    #[error("at the start {}: move the objects or the arm apart", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))]
+    Overlap(Vec<Overlap>),
     /// A body's state left the finite numbers.
     #[error("the simulation diverged at step {step} ({time_s:.3} s): body {body} is no longer finite{}; try a smaller `step_s`", told(.fastest))]
     Diverged {
@@ -39,6 +36,18 @@ pub enum WorldError {
         /// The bodies that were fastest when they were last finite, the fastest first, with their speeds (m/s).
         fastest: Vec<(String, f64)>,
     },
+}
+
+/// Two parts one of which is inside the other.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("`{a}` is {:.1} mm inside `{b}`", .depth_m * 1e3)]
+pub struct Overlap {
+    /// A link, an object, or an object's part: `block.left_post`.
+    pub a: String,
+    /// The other.
+    pub b: String,
+    /// How deep (m).
+    pub depth_m: f64,
 }
 
 fn told(fastest: &[(String, f64)]) -> String {

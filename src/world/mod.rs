@@ -35,7 +35,7 @@ mod watch;
 
 pub use cabinet::{Cabinet, Grip, door_turn, opening_rad};
 pub use contacts::{ContactEpisode, Permission};
-pub use error::WorldError;
+pub use error::{Overlap, WorldError};
 pub use kinematic_scene::{KinematicScene, Placement};
 pub use object::{Object, ObjectKind, Solid, support_height_m};
 pub use parameters::{Parameters, Quantity};

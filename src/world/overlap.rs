@@ -3,7 +3,7 @@
 use parry3d_f64::bounding_volume::BoundingVolume;
 use rapier3d_f64::prelude::{Collider, PhysicsWorld};
 
-use super::WorldError;
+use super::error::{Overlap, WorldError};
 use super::gap::Gap;
 use super::parts::{Owner, Part, Parts};
 
@@ -47,8 +47,7 @@ pub(super) fn refuse_among(engine: &PhysicsWorld, parts: &Parts, counts: impl Fn
     if pairs.is_empty() {
         return Ok(());
     }
-    let told: Vec<String> = pairs.iter().map(|(a, b, depth)| format!("`{a}` is {:.1} mm inside `{b}`", depth * 1e3)).collect();
-    Err(WorldError::Overlap { pairs: told.join(", ") })
+    Err(WorldError::Overlap(pairs.into_iter().map(|(a, b, depth_m)| Overlap { a: a.into(), b: b.into(), depth_m }).collect()))
 }
 
 /// Whether the parts belong to one limb or one object.

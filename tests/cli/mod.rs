@@ -14,6 +14,7 @@ mod inspect;
 mod killed;
 mod learn;
 mod learn_errors;
+mod located;
 mod migrate;
 mod overrides;
 mod pipes;

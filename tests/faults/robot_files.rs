@@ -97,9 +97,11 @@ fn rows_9_to_12_none_of_the_26_malformed_robots_is_taken_silently() {
         let said = validate(text.as_bytes());
         assert_eq!(said.code, Some(code), "{told}: {}{}", said.stdout, said.stderr);
         assert!(!said.stderr.contains("internal error"), "{told}: {}", said.stderr);
-        let message = said.stderr.lines().find(|line| line.contains(told)).unwrap_or_else(|| panic!("{told}: {}", said.stderr));
-        let place = message.split("b.urdf:").nth(1).unwrap_or_else(|| panic!("no place in {message}"));
-        let line: String = place.chars().take_while(char::is_ascii_digit).collect();
+        // A warning is one line; an error is a paragraph with its place, words and help.
+        let paragraph = said.stderr.split("\n\n").find(|part| part.contains(told)).unwrap_or_else(|| panic!("{told}: {}", said.stderr));
+        let message = paragraph.lines().find(|line| line.contains(told) && line.contains("b.urdf")).unwrap_or(paragraph);
+        let place = message.split("b.urdf").nth(1).unwrap_or_else(|| panic!("no place in {message}"));
+        let line: String = place.strip_prefix(':').unwrap_or_default().chars().take_while(char::is_ascii_digit).collect();
         // A robot without links is wrong as a whole, and has no other line.
         let line: usize = line.parse().unwrap_or_else(|_| usize::from(told == "has no <link>"));
         assert!(lines.contains(&line), "{told}: line {line} is not in {lines:?}: {message}");

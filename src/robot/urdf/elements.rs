@@ -8,6 +8,8 @@ use super::vocabulary::SHAPES;
 
 /// Edge, radius or length (m) above which a shape was probably given in millimetres.
 const LARGEST_SHAPE: f64 = 20.0;
+/// Angle beyond which a pose is probably told in degrees (rad): a turn, with room for rounded digits.
+const FULL_TURN_RAD: f64 = 6.3;
 
 /// Checks elements of one file, each with its line.
 pub(super) struct Check<'a> {
@@ -115,12 +117,14 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// The pose of an element, which may be absent.
     /// Checks the <origin> of an element, and returns its `xyz` where it has one.
     pub(super) fn origin(&mut self, node: Node<'_, '_>) -> Option<Vec<f64>> {
         let origin = child(node, "origin")?;
         let xyz = self.optional(origin, "xyz", 3);
-        self.optional(origin, "rpy", 3);
+        let rpy = self.optional(origin, "rpy", 3);
+        if let Some(angle) = rpy.iter().flatten().find(|angle| angle.abs() > FULL_TURN_RAD) {
+            self.warning(origin, format!("`rpy` turns by {angle} rad, which looks like degrees"), "angles are in radians");
+        }
         if self.optional(origin, "quat_xyzw", 4).is_some() && origin.attribute("rpy").is_some() {
             self.error(origin, "has both `rpy` and `quat_xyzw`", "keep one");
         }

@@ -5,6 +5,11 @@ use roxmltree::Node;
 use super::elements::Check;
 use super::outline::child;
 
+/// Angle beyond which a joint's limit is probably in degrees (rad): two turns.
+const MOST_TURNED_RAD: f64 = 4.0 * std::f64::consts::PI;
+/// Way beyond which a joint's limit is probably in millimetres (m).
+const FARTHEST_SLID_M: f64 = 20.0;
+
 impl Check<'_> {
     pub(super) fn joint(&mut self, joint: Node<'_, '_>) {
         self.named(joint);
@@ -21,7 +26,7 @@ impl Check<'_> {
         let kind = joint.attribute("type");
         match kind {
             Some("fixed") => {}
-            Some("revolute" | "prismatic" | "continuous") => self.moving(joint, kind == Some("continuous")),
+            Some(kind @ ("revolute" | "prismatic" | "continuous")) => self.moving(joint, kind),
             Some("floating" | "planar" | "spherical") => {
                 self.error(joint, "only joints with one degree of freedom can be simulated", "use a chain of them");
             }
@@ -33,7 +38,7 @@ impl Check<'_> {
         }
     }
 
-    fn moving(&mut self, joint: Node<'_, '_>, continuous: bool) {
+    fn moving(&mut self, joint: Node<'_, '_>, kind: &str) {
         if let Some(axis) = child(joint, "axis")
             && self.required(axis, "xyz", 3).is_some_and(|axis| axis.iter().all(|part| part.abs() < 1e-9))
         {
@@ -52,13 +57,13 @@ impl Check<'_> {
             }
         }
         match child(joint, "limit") {
-            Some(limit) => self.limit(limit, continuous),
-            None if continuous => {}
+            Some(limit) => self.limit(limit, kind),
+            None if kind == "continuous" => {}
             None => self.error(joint, "has no <limit>", "give lower, upper, effort and velocity"),
         }
     }
 
-    fn limit(&mut self, limit: Node<'_, '_>, continuous: bool) {
+    fn limit(&mut self, limit: Node<'_, '_>, kind: &str) {
         for name in ["effort", "velocity"] {
             if limit.attribute(name).is_none() {
                 self.error(limit, format!("has no `{name}`"), "");
@@ -67,13 +72,22 @@ impl Check<'_> {
             }
         }
         let range = ["lower", "upper"].map(|name| self.optional_number(limit, name));
-        if continuous {
+        if kind == "continuous" {
+            if range.iter().flatten().any(|bound| *bound != 0.0) {
+                self.warning(limit, "a continuous joint turns without end: its `lower` and `upper` are left aside", "use type revolute");
+            }
             return;
         }
         if limit.attribute("lower").is_none() && limit.attribute("upper").is_none() {
             return self.error(limit, "has neither `lower` nor `upper`", "give the range, or use type continuous");
         }
         let [lower, upper] = range.map(|bound| bound.unwrap_or(0.0));
+        let widest = lower.abs().max(upper.abs());
+        if kind == "revolute" && widest > MOST_TURNED_RAD {
+            self.warning(limit, format!("the joint turns as far as {widest} rad, which looks like degrees"), "limits are in radians");
+        } else if kind == "prismatic" && widest > FARTHEST_SLID_M {
+            self.warning(limit, format!("the joint slides as far as {widest} m, which looks like millimetres"), "limits are in metres");
+        }
         if lower > upper {
             self.error(limit, format!("lower ({lower}) is greater than upper ({upper})"), "swap them");
         } else if lower == upper {
