@@ -1,6 +1,7 @@
 //! `cpdmp check`: runs without recording or display and judges, for continuous integrations.
 
-use std::path::Path;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
@@ -13,8 +14,8 @@ use super::load::options;
 use super::progress::Clock;
 use super::terminal::Terminal;
 use crate::report::{
-    CheckReport, Checked, InputFault, Outcome, OutputError, Replaceable, check_text, github, junit, junit_without_verdict, lock_beside,
-    replace_file,
+    CheckReport, Checked, InputFault, Outcome, OutputError, Replaceable, check_text, followed, github, junit, junit_without_verdict,
+    lock_beside, replace_file,
 };
 use crate::scenario::{Diagnostic, LoadOptions, Scenario, Severity};
 use crate::simulation::Progress;
@@ -23,7 +24,7 @@ use crate::simulation::Progress;
 /// outcome counts.
 pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> Outcome {
     // Whether the verdict can be written is known before minutes are spent on it; and until it is written, an earlier one does not stand for it.
-    let lock = arguments.junit.as_deref().map(lock_beside).transpose();
+    let lock = arguments.junit.as_deref().map(|path| lock_beside(&followed(path))).transpose();
     let _held_until_the_end = match lock {
         Ok(lock) => lock,
         Err(error) => return not_written(&error, terminal),
@@ -50,6 +51,19 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     let report = CheckReport::of(checks.collect(), clock.elapsed_s());
     tell(&report, global, terminal);
     write(&junit(&report)).map_or_else(|error| report.outcome.max(not_written(&error, terminal)), |()| report.outcome)
+}
+
+/// An earlier verdict does not stand for a check whose command line made no sense, which nobody has read to its end: the file that follows
+/// `--junit` says so from here on, if there is one.
+pub(super) fn withdraw_verdict(words: impl Iterator<Item = OsString>) {
+    let words: Vec<OsString> = words.collect();
+    let attached = |word: &OsString| word.to_str().and_then(|word| word.strip_prefix("--junit=")).map(OsString::from);
+    let after = || words.windows(2).find(|pair| pair[0] == "--junit").map(|pair| pair[1].clone());
+    let file = words.iter().find_map(attached).or_else(after).map(PathBuf::from);
+    if let Some(file) = file.filter(|file| words.iter().any(|word| word == "check") && file.is_file()) {
+        // What is no JUnit is left alone, and what cannot be written was not ours to withdraw.
+        _ = replace_file(&file, junit_without_verdict().as_bytes(), Replaceable::Junit);
+    }
 }
 
 fn not_written(error: &OutputError, terminal: &Terminal) -> Outcome {

@@ -32,7 +32,8 @@ pub(super) fn judged_again(folder: &Path, options: &LoadOptions, clock: &Clock, 
     }
     if let Some(file) = manifest.changed_inputs().find(|path| !is_samples(path)) {
         let again = format!("cpdmp run {} --out ANOTHER_FOLDER", path.display());
-        let message = format!("it has changed since the run, whose log tells nothing of it: restore it, or make the run again: `{again}`");
+        let what = if file.exists() { "has changed since the run" } else { "is not where it was in the run" };
+        let message = format!("it {what}, whose log tells nothing of it: restore it, or make the run again: `{again}`");
         return refused(InputFault::of_file(&file, FileCode::Edited, message));
     }
     let options = manifest.may_use(options);

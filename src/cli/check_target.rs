@@ -38,6 +38,11 @@ pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Targ
             };
             files_like(path).into_iter().map(|file| Target::Trajectory(file, scene.clone())).collect()
         } else {
+            let unjudged = if arguments.scene.is_some() { 0 } else { samples_in(path).len() };
+            if unjudged > 0 {
+                let path = path.display();
+                terminal.note(&format!("{path}: {unjudged} files of samples are not judged: say with --scene SCENARIO in which scene\n"));
+            }
             let runs = runs_in(path).into_iter().map(Target::Run);
             let moved =
                 arguments.scene.iter().flat_map(|scene| samples_in(path).into_iter().map(|file| Target::Trajectory(file, scene.clone())));
@@ -58,8 +63,10 @@ pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Targ
 
 /// Whether it is the folder of a run: also one whose manifest is lost, which is refused as such. Taken for a scenario, it would be simulated.
 fn is_run(path: &Path) -> bool {
-    let holds = |name: &&str| path.join(name).is_file();
-    holds(&"manifest.json") || [SCENARIO, REPORT, STEP_LOG, STATE_LOG, SKILL].iter().filter(|name| holds(name)).count() > 1
+    let held = |names: &[&str]| names.iter().filter(|name| path.join(name).exists()).count();
+    // A scenario and a skill may lie side by side in anybody's folder; what only a run leaves does not.
+    let left = held(&[REPORT, STEP_LOG, STATE_LOG]);
+    held(&["manifest.json"]) > 0 || (left > 0 && left + held(&[SCENARIO, SKILL]) > 1)
 }
 
 /// Whether it is named like a file of samples.
@@ -67,12 +74,9 @@ pub(super) fn is_samples(path: &Path) -> bool {
     path.extension().is_some_and(|extension| SAMPLES.iter().any(|known| extension.eq_ignore_ascii_case(known)))
 }
 
-/// The files of samples in a folder, sorted.
-fn samples_in(folder: &Path) -> Vec<PathBuf> {
-    if !folder.is_dir() {
-        return Vec::new();
-    }
-    let mut files = files_like(&folder.join("*"));
+/// The files of samples in a folder, or those that match a pattern, sorted.
+fn samples_in(path: &Path) -> Vec<PathBuf> {
+    let mut files = if path.is_dir() { files_like(&path.join("*")) } else { files_like(path) };
     files.retain(|file| is_samples(file));
     files
 }

@@ -75,6 +75,9 @@ pub fn main() -> ExitCode {
         Ok((cli, without_effect)) => dispatch(&cli, without_effect),
         Err(error) => told_by_clap(&error),
     });
+    if let Ok(Outcome::Usage) = outcome {
+        check::withdraw_verdict(std::env::args_os());
+    }
     ExitCode::from(outcome.unwrap_or(Outcome::InternalError).exit_code())
 }
 

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::beginning::Beginning;
 use super::files::{REPORT, STATE_LOG, STEP_LOG};
 use crate::recording::read_state_log;
-use crate::report::{Host, hash_file};
+use crate::report::{Host, MANIFEST_VERSION, hash_file, read_regular};
 use crate::scenario::{LoadOptions, Scenario};
 use crate::simulation::WorldTrace;
 
@@ -32,11 +32,16 @@ impl RecordedManifest {
     /// Reads it from the folder, or says why that is no run.
     pub fn read(folder: &Path) -> Result<Self, String> {
         let place = folder.join("manifest.json");
-        let text =
-            std::fs::read_to_string(&place).map_err(|error| format!("{} is no run: {}: {error}", folder.display(), place.display()))?;
+        let text = read_regular(&place)
+            .and_then(|bytes| String::from_utf8(bytes).map_err(std::io::Error::other))
+            .map_err(|error| format!("{} is no run: {}: {error}", folder.display(), place.display()))?;
         let manifest: Value = serde_json::from_str(&text).unwrap_or_default();
         if manifest["format"] != "cpdmp-run" {
             return Err(format!("{} is not the folder of a run", folder.display()));
+        }
+        if let Some(version) = manifest["schema_version"].as_u64().filter(|version| *version > u64::from(MANIFEST_VERSION)) {
+            let place = place.display();
+            return Err(format!("{place} is of version {version}, and this program reads version {MANIFEST_VERSION}: use a newer cpdmp"));
         }
         Ok(Self(manifest))
     }

@@ -89,6 +89,13 @@ impl Checked {
         self.report.iter().flat_map(|report| &report.collisions).filter(|contact| !contact.allowed)
     }
 
+    /// What is odd about the input and the run.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let of_input = self.faults.iter().filter(|fault| fault.warning).map(InputFault::line);
+        let of_run = self.report.iter().flat_map(|report| report.warnings()).map(|warning| format!("{}: warning: {warning}", self.path));
+        of_input.chain(of_run).collect()
+    }
+
     /// Why there are no answers, when there are none.
     pub(super) fn error(&self) -> Option<String> {
         match &self.report {

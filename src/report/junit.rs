@@ -57,6 +57,10 @@ fn suite(check: &Checked) -> TestSuite {
     let mut completed = TestCase::new(COMPLETED, status);
     completed.set_classname(&check.path).set_time(seconds(check.wall_s));
     suite.add_test_case(completed);
+    let warnings = check.warnings();
+    if !warnings.is_empty() {
+        suite.set_system_err(warnings.join("\n"));
+    }
     suite.add_test_cases(check.criteria().map(|criterion| case(check, criterion)));
     suite
 }

@@ -6,6 +6,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use twox_hash::XxHash3_64;
 
+/// The version of this format.
+pub const MANIFEST_VERSION: u32 = 1;
+
 /// What marks a folder as one of ours.
 pub(super) const FORMAT: &str = "cpdmp-run";
 
@@ -82,7 +85,7 @@ impl Manifest {
     pub fn new(report: &super::RunReport) -> Self {
         Self {
             format: FORMAT,
-            schema_version: 1,
+            schema_version: MANIFEST_VERSION,
             version: report.version,
             scenario: report.scenario.clone(),
             seed: report.seed,
@@ -106,9 +109,20 @@ impl Manifest {
     }
 }
 
+/// What a file holds. A pipe could keep its reader waiting for ever, and a device has no end: they are refused.
+///
+/// # Errors
+/// When it is no regular file or cannot be read.
+pub fn read_regular(path: &Path) -> std::io::Result<Vec<u8>> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(std::io::Error::other("it is no regular file"));
+    }
+    std::fs::read(path)
+}
+
 /// Length and hash of a file.
 pub fn hash_file(path: &Path) -> FileHash {
-    let bytes = std::fs::read(path).ok();
+    let bytes = read_regular(path).ok();
     FileHash { path: path.to_path_buf(), bytes: bytes.as_ref().map(|bytes| bytes.len() as u64), xxh3_64: bytes.as_deref().map(hash_bytes) }
 }
 

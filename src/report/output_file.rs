@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::OutputError;
 
@@ -45,7 +45,13 @@ pub fn prepare_file(path: &Path, replaceable: Replaceable) -> Result<(), OutputE
     fs::create_dir_all(folder).map_err(OutputError::io(folder))
 }
 
-/// Writes a file beside its place and renames it, so that there is never half of it.
+/// Where a file is written that is called `path`: where a link leads, if it is one.
+#[must_use]
+pub fn followed(path: &Path) -> PathBuf {
+    path.canonicalize().ok().filter(|_| path.is_symlink()).unwrap_or_else(|| path.to_path_buf())
+}
+
+/// Writes a file beside its place and renames it, so that there is never half of it. A link is followed.
 ///
 /// # Errors
 /// When something else is there, or the file system refuses.
@@ -55,11 +61,12 @@ pub fn replace_file(path: &Path, content: &[u8], replaceable: Replaceable) -> Re
     // A temporary file is private; what a command writes is a file like any other.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    let place = followed(path);
     let write = || {
-        let mut beside = builder.tempfile_in(folder(path))?;
+        let mut beside = builder.tempfile_in(folder(&place))?;
         beside.write_all(content)?;
         beside.as_file().sync_all()?;
-        beside.persist(path).map_err(|error| error.error)
+        beside.persist(&place).map_err(|error| error.error)
     };
     write().map(|_| ()).map_err(OutputError::io(path))
 }
@@ -97,7 +104,8 @@ fn is_replaceable(path: &Path, replaceable: Replaceable) -> bool {
     match replaceable {
         Replaceable::Table => bytes.starts_with(b"PAR1"),
         Replaceable::Skill => text.trim_start().starts_with('{') && text.contains("\"cpdmp-skill\""),
-        Replaceable::Junit => text.contains("<testsuites"),
+        // What `mktemp` makes is there, and holds nothing.
+        Replaceable::Junit => bytes.is_empty() || text.contains("<testsuites"),
         Replaceable::Samples => {
             bytes.starts_with(b"PAR1") || text.lines().next().is_some_and(|line| line.split(',').any(|c| c == "time_s"))
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{AnswerStatus, CriterionReport, FileCode, InputFault, Outcome, RunReport};
+use super::{AnswerStatus, CriterionReport, FileCode, InputFault, Outcome, RunReport, read_regular};
 use crate::check::{CriterionSpec, Expectation};
 
 /// What a run said of itself.
@@ -51,7 +51,9 @@ impl RecordedReport {
     pub fn read(folder: &Path) -> Result<Self, InputFault> {
         let path = folder.join("report.json");
         let fault = |message: String| InputFault::of_file(&path, FileCode::Unreadable, message);
-        let text = std::fs::read_to_string(&path).map_err(|error| fault(format!("how the run ended cannot be read: {error}")))?;
+        let text = read_regular(&path)
+            .and_then(|bytes| String::from_utf8(bytes).map_err(std::io::Error::other))
+            .map_err(|error| fault(format!("how the run ended cannot be read: {error}")))?;
         serde_json::from_str(&text).map_err(|error| InputFault {
             line: Some(error.line()),
             column: Some(error.column()),

@@ -38,5 +38,5 @@ pub use inverse_kinematics::{IkOutcome, IkSettings, InverseKinematics, pose_erro
 pub use joint_command::JointCommand;
 pub use model::{Body, Frame, Geometry, Joint, JointKind, Mimic, RobotModel, Shape};
 pub use nearest::nearest_name;
-pub use urdf::{Attachment, Finding, LoadOptions, Loaded, Severity, UrdfError, load, parse};
+pub use urdf::{Attachment, Finding, LoadOptions, Loaded, Severity, UrdfError, collision_mesh_files, load, parse};
 pub use wrench_estimate::{EffortModel, JointReading, Wrench, WrenchEstimator};

@@ -115,7 +115,7 @@ impl Scenario {
     /// The same of a file all of which must be good: also the values that its `[[sweep]]` would give.
     ///
     /// # Errors
-    /// What [`Scenario::load`] tells, and what keeps the sweep of the file, as it stands without flags, from being run.
+    /// What [`Scenario::load`] tells, and what keeps the sweep of the file from being run.
     pub fn load_with_sweep(path: &Path, options: &LoadOptions) -> Result<Self, InvalidScenario> {
         let of_sweep = sweep_checks::faults_of_file(path, options);
         match Self::load(path, options) {

@@ -97,8 +97,20 @@ pub(super) fn literal(node: &Node) -> String {
         Value::Number(number) => format!("{number:?}"),
         Value::Text(text) => text_literal(text),
         Value::List(items) => format!("[{}]", items.iter().map(literal).collect::<Vec<_>>().join(", ")),
-        Value::Missing | Value::Date | Value::Table(_) => "\"\"".to_owned(),
+        Value::Table(entries) => {
+            let told = entries.iter().filter(|entry| entry.node.value != Value::Missing);
+            format!(
+                "{{ {} }}",
+                told.map(|entry| format!("{} = {}", key_literal(&entry.key), literal(&entry.node))).collect::<Vec<_>>().join(", ")
+            )
+        }
+        Value::Missing | Value::Date => "\"\"".to_owned(),
     }
+}
+
+fn key_literal(key: &str) -> String {
+    let is_bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    if is_bare { key.to_owned() } else { text_literal(key) }
 }
 
 fn text_literal(text: &str) -> String {

@@ -38,9 +38,12 @@ impl Sweep {
     }
 }
 
-/// What keeps the `[[sweep]]` of a file, as it stands without flags, from being run. Nothing in a file that has none.
+/// What keeps the `[[sweep]]` of a file from being run. Nothing in a file that has none. A flag may mend a file; one that tells a single run what
+/// otherwise varies does not make the file a bad one.
 pub(super) fn faults_of_file(path: &Path, options: &LoadOptions) -> Vec<Diagnostic> {
-    match Sweep::load(path, &options.without_overrides(), &SweepOptions::default()) {
+    let load = |options: &LoadOptions| Sweep::load(path, options, &SweepOptions::default());
+    let flagged = load(&LoadOptions { deny_warnings: false, ..options.clone() });
+    match flagged.or_else(|_| load(&options.without_overrides())) {
         Ok(sweep) if sweep.axes.is_empty() => Vec::new(),
         Ok(sweep) => sweep.faults(),
         Err(invalid) => invalid.0,
@@ -54,6 +57,7 @@ pub(super) fn contradictions(axes: &[Axis], tree: &Node, options: &LoadOptions) 
     let set: Vec<Vec<String>> = options.set.iter().filter_map(|typed| Some(steps(tree, typed.split_once('=')?.0))).collect();
     // One within the other: whichever is put in place last would change what the other says.
     let within = |a: &[String], b: &[String]| a.starts_with(b) || b.starts_with(a);
+    let robot = ["robot", "urdf"].map(str::to_owned);
     let mut faults = Vec::new();
     for (index, key) in keys.iter().enumerate() {
         let mut refuse = |message: String, expected: &str| faults.push(Fault::at(Code::Conflict, key.origin, message).expected(expected));
@@ -66,7 +70,7 @@ pub(super) fn contradictions(axes: &[Axis], tree: &Node, options: &LoadOptions) 
         }
         // Repetitions begin at the seed of `--seed`; listed seeds leave it nothing to say.
         let seeded = key.name == "seed" && options.seed.is_some() && key.is_listed();
-        if set.iter().any(|set| within(set, &places[index])) || seeded || (key.name == "robot.urdf" && options.robot.is_some()) {
+        if set.iter().any(|set| within(set, &places[index])) || seeded || (options.robot.is_some() && within(&robot, &places[index])) {
             refuse(format!("`{}` varies, but a flag gives it one value", key.name), "one of the two");
         }
         if let Some(again) = key.repeated() {

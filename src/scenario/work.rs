@@ -7,6 +7,7 @@ use crate::learning::{LearningError, MayGoOn};
 use crate::planar::{
     Guidance, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
 };
+use crate::robot;
 use crate::simulation::{DemonstrationSource, Experiment};
 
 /// What a scenario runs.
@@ -57,11 +58,13 @@ impl Work {
         }
     }
 
-    /// The files besides the scenario's own that decide a run: the robot, the dataset.
+    /// The files besides the scenario's own that decide a run: the robot, the meshes of what it can touch, the dataset.
     #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
         let Self::Arm(experiment) = self else { return Vec::new() };
         let mut files: Vec<PathBuf> = experiment.robot.urdf.iter().cloned().collect();
+        files
+            .extend(experiment.robot.urdf.iter().flat_map(|urdf| robot::collision_mesh_files(urdf, &experiment.robot.package_directories)));
         if let DemonstrationSource::Dataset(folder) = &experiment.demonstrations {
             let mut of_dataset: Vec<PathBuf> = match std::fs::read_dir(folder) {
                 Ok(entries) => entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect(),

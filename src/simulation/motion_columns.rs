@@ -33,7 +33,12 @@ pub fn check_columns(setup: &Setup, trajectory: &Trajectory, passed_over: &[Stri
     let mut used: Vec<String> = [named, counted, pose, vec!["gripper".to_owned(), "gripper_opening".to_owned()]].concat();
     let mut odd = Vec::new();
     for object in &setup.experiment.objects {
-        for prefix in [format!("object_{}_", object.name), format!("{}_", object.name)] {
+        let prefixes = [format!("object_{}_", object.name), format!("{}_", object.name)];
+        if prefixes.iter().all(|prefix| POSE.iter().all(|axis| trajectory.column_index(&format!("{prefix}{axis}")).is_some())) {
+            let [long, short] = &prefixes;
+            faults.push(format!("it has the pose of `{}` twice, in {long}x_m … and {short}x_m …: keep one of them", object.name));
+        }
+        for prefix in prefixes {
             let columns = POSE.map(|axis| format!("{prefix}{axis}"));
             if columns.iter().any(|name| passed_over.contains(name)) {
                 continue;
@@ -46,6 +51,7 @@ pub fn check_columns(setup: &Setup, trajectory: &Trajectory, passed_over: &[Stri
                     found.join(", ")
                 ));
             }
+            faults.extend(no_turn(trajectory, &prefix));
             odd.extend(poses(trajectory, &prefix).and_then(|poses| displaced(setup, object, &poses)));
             used.extend(columns);
         }
@@ -62,6 +68,16 @@ pub fn check_columns(setup: &Setup, trajectory: &Trajectory, passed_over: &[Stri
         ));
     }
     Ok(odd)
+}
+
+/// How far the length of a quaternion may be from 1: what digits lose that somebody has rounded.
+const UNIT: f64 = 1e-3;
+
+/// The first sample whose orientation is none.
+fn no_turn(trajectory: &Trajectory, prefix: &str) -> Option<String> {
+    let turns = trajectory.select(&["qx", "qy", "qz", "qw"].map(|axis| format!("{prefix}{axis}"))).ok()?;
+    let (row, norm) = turns.row_iter().map(|turn| turn.norm()).enumerate().find(|(_, norm)| !(1.0 - UNIT..=1.0 + UNIT).contains(norm))?;
+    Some(format!("the quaternion {prefix}qx … {prefix}qw of sample {} has the length {norm}, but must have the length 1", row + 1))
 }
 
 /// Columns of joints that the movement cannot move.

@@ -115,7 +115,7 @@ fn a_check_without_a_verdict_leaves_no_green_file() {
     let written = || std::fs::read_to_string(folder.path().join("v.xml")).expect("written");
     assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
     assert!(!written().contains("<error"), "{}", written());
-    for (arguments, code) in [(["absent/*.toml", "-q"], 5), (["a.csv", "-q"], 2)] {
+    for (arguments, code) in [(["absent/*.toml", "-q"], 5), (["a.csv", "-q"], 2), (["a.toml", "--bogus"], 2), (["a.toml", "--jobs=0"], 2)] {
         let said = folder.call(&[&["check"], &arguments[..], &["--junit", "v.xml"]].concat());
         assert_eq!(said.code, Some(code), "{}", said.stderr);
         let told = written();
@@ -123,4 +123,12 @@ fn a_check_without_a_verdict_leaves_no_green_file() {
     }
     assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
     assert!(!written().contains("<error"), "what stands there is replaced");
+    // An empty file is free, and a link leads to what is read.
+    std::fs::write(folder.path().join("v.xml"), "").expect("written");
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("v.xml", folder.path().join("link.xml")).expect("a link");
+    #[cfg(unix)]
+    assert_eq!(folder.call(&["check", "absent/*.toml", "--junit", "link.xml"]).code, Some(5));
+    #[cfg(unix)]
+    assert!(written().contains("did not come to its end") && folder.path().join("link.xml").is_symlink(), "{}", written());
 }

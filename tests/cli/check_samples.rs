@@ -160,6 +160,10 @@ fn movements_in_a_folder_are_judged_too() {
     let checks = serde_json::from_str::<Value>(&said.stdout).expect("JSON")["checks"].clone();
     let told: Vec<_> = checks.as_array().expect("a list").iter().map(|check| (check["path"].as_str(), check["outcome"].as_str())).collect();
     assert_eq!(told, [(Some("moves/bad.tsv"), Some("criteria_not_met")), (Some("moves/good.csv"), Some("passed"))]);
+    let by_pattern = folder.call(&["check", "moves/*", "--scene", "a.toml", "--format", "json", "-q"]);
+    let again = serde_json::from_str::<Value>(&by_pattern.stdout).expect("JSON")["checks"].clone();
+    assert_eq!((by_pattern.code, again.as_array().map(Vec::len)), (Some(10), Some(2)), "a pattern finds what its folder does");
+    assert!(folder.call(&["check", "moves"]).stderr.contains("2 files of samples are not judged"));
     assert_eq!(folder.call(&["check", "moves", "-q"]).code, Some(5), "without a scene there is nothing to judge them in");
     let said = folder.call(&["check", "a.toml", "--scene", "a.toml", "-q"]);
     assert!(said.code == Some(2) && said.stderr.contains("--scene has no effect"), "{:?} {}", said.code, said.stderr);

@@ -21,6 +21,7 @@ mod pipes;
 mod planar_run;
 mod program;
 mod real_run;
+mod refusals;
 mod replay;
 mod run_folder;
 mod schemas;

@@ -256,6 +256,20 @@ fn words_and_seeds_vary_too() {
     assert_eq!(rows[1][2], Field::Str("ergodic".to_owned()));
 }
 
+/// Contract: a table that varies as a whole stands in the sweep's table, as TOML.
+#[test]
+fn tables_vary_too() {
+    let folder = folder();
+    let values = "{kmeans_starts=0, states=3},{states=4}";
+    let said = folder.call(&["sweep", "bare.toml", "--grid", &format!("learning.motion={values}")]);
+    assert!(said.code.is_some_and(|code| code == 0 || code == 10), "{}", said.stderr);
+    let (columns, rows) = table(&folder.path().join("sweeps/short/sweep.parquet"));
+    let of = |name: &str| columns.iter().position(|column| column == name).expect("a column");
+    let told: Vec<String> = rows.iter().map(|row| row[of("learning.motion")].to_string()).collect();
+    assert_eq!(told, ["\"{ kmeans_starts = 0, states = 3 }\"", "\"{ states = 4 }\""]);
+    assert!(rows[1][of("command")].to_string().contains("learning.motion={ states = 4 }"), "{:?}", rows[1]);
+}
+
 /// Contract: with `--deny-warnings` what `run` would refuse is refused of every member before the first run, and a run that warns of something is one
 /// that is not as expected, as its command says.
 #[test]

@@ -58,6 +58,33 @@ fn a_robot_that_touches_nothing_is_warned_of() {
     assert!(said.code == Some(3) && said.stderr.contains("can touch anything"), "{}", said.stderr);
     let said = folder.call(&["validate", "a.toml", "--robot", "r.urdf"]);
     assert!(said.code == Some(0) && !said.stderr.contains("can touch anything"), "{}", said.stderr);
+    // One that cannot be seen either is no better.
+    let mut unseen = ghost.clone();
+    while let (Some(start), Some(end)) = (unseen.find("<visual"), unseen.find("</visual>")) {
+        unseen.replace_range(start..end + "</visual>".len(), "");
+    }
+    fs::write(folder.path().join("ghost.urdf"), unseen).expect("written");
+    for format in ["junit", "github"] {
+        let said = folder.call(&["check", "a.toml", "--robot", "ghost.urdf", "--format", format]);
+        assert!(said.stdout.contains("no link of it can touch anything"), "{format}: {}", said.stdout);
+    }
+}
+
+/// Contract: what a robot can touch is an input of its runs, wherever its shapes are.
+#[test]
+fn a_run_whose_meshes_have_changed_is_not_judged() {
+    let (start, end) = (ROBOT.find("<collision").expect("there"), ROBOT.find("</collision>").expect("there"));
+    let mesh = "<collision><geometry><mesh filename=\"h.obj\"/></geometry>";
+    let robot = format!("{}{mesh}{}", &ROBOT[..start], &ROBOT[end..]);
+    let corner = |size: f64| format!("v 0 0 0\nv {size} 0 0\nv 0 {size} 0\nv 0 0 {size}\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    let small = corner(0.02);
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes()), ("r.urdf", robot.as_bytes()), ("h.obj", small.as_bytes())]);
+    let ran = folder.call(&["run", "a.toml", "--robot", "r.urdf", "--out", "run", "-q"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    assert_eq!(folder.call(&["check", "run"]).code, Some(0));
+    fs::write(folder.path().join("h.obj"), corner(0.04)).expect("written");
+    let said = folder.call(&["check", "run"]);
+    assert!(said.code == Some(3) && said.stdout.contains("h.obj") && said.stdout.contains("has changed"), "{}", said.stdout);
 }
 
 /// Contract: a pattern finds runs as their folder does, and a run that lost files is still one.

@@ -174,6 +174,14 @@ fn resolve_mimics(robot: &Robot, model: &mut RobotModel) -> Option<()> {
 
 /// What can be seen but not touched passes through everything.
 fn warn_of_ghosts(model: &RobotModel, entries: &BTreeMap<&str, &LinkEntry>, findings: &mut Findings) {
+    let file_of = |link: &str| entries.get(link).map(|entry| &entry.place.file);
+    if let Some(root) = entries.get(model.bodies[0].name.as_str()) {
+        // A tool that is mounted on it is a file of its own.
+        let mut touched = model.bodies.iter().flat_map(|body| &body.collisions);
+        if !touched.any(|shape| file_of(&shape.link) == Some(&root.place.file)) {
+            findings.warning(&root.place, "robot", "no link of it can touch anything", "give its links a <collision>");
+        }
+    }
     for joint in &model.joints {
         let body = &model.bodies[joint.child_body];
         if let Some(entry) = entries.get(body.name.as_str())

@@ -3,11 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use nalgebra::Isometry3;
+use roxmltree::Document;
 use urdf_rs::Robot;
 
 use super::super::model::RobotModel;
 use super::build::build;
 use super::finding::{Finding, Findings, Place, UrdfError};
+use super::mesh::MeshStore;
 use super::outline::{JointEntry, Outline};
 use super::shapes::share_colors;
 use super::structure::{MAX_FILE_BYTES, check};
@@ -63,6 +65,25 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, UrdfError> {
     let bytes = std::fs::read(path).map_err(|error| fault(error.to_string()))?;
     let text = String::from_utf8(bytes).map_err(|error| fault(error.to_string()))?;
     parse(&text, &name, options)
+}
+
+/// The mesh files that decide what the robot in the file `path` can touch, sorted; as far as they can be found.
+#[must_use]
+pub fn collision_mesh_files(path: &Path, package_directories: &[PathBuf]) -> Vec<PathBuf> {
+    let readable = std::fs::metadata(path).is_ok_and(|about| about.is_file() && about.len() <= MAX_FILE_BYTES as u64);
+    let text = if readable { std::fs::read_to_string(path).unwrap_or_default() } else { String::new() };
+    // Only a text that passes the structural check is sure not to be a bomb.
+    if check(&text, &path.display().to_string(), &mut Findings::default()).is_none() {
+        return Vec::new();
+    }
+    let Ok(document) = Document::parse(&text) else { return Vec::new() };
+    let meshes = MeshStore::new(package_directories);
+    let touched = document.descendants().filter(|node| node.has_tag_name("collision")).flat_map(|node| node.descendants());
+    let names = touched.filter(|node| node.has_tag_name("mesh")).filter_map(|mesh| mesh.attribute("filename"));
+    let mut files: Vec<PathBuf> = names.filter_map(|name| meshes.resolve(name, path).ok()).collect();
+    files.sort();
+    files.dedup();
+    files
 }
 
 /// Reads the robot description `text`. `origin_name` names it in findings; if it is the path of a file, meshes are found from there.

@@ -52,7 +52,7 @@ impl MeshStore {
     }
 
     /// The file that `name` stands for, inside its package.
-    fn resolve(&self, name: &str, origin: &Path) -> Result<PathBuf, MeshFault> {
+    pub(super) fn resolve(&self, name: &str, origin: &Path) -> Result<PathBuf, MeshFault> {
         let absolute = origin.canonicalize().unwrap_or_default();
         let (root, start, rest) = if let Some(address) = name.strip_prefix("package://") {
             let (package, rest) = address.split_once('/').unwrap_or((address, ""));

@@ -16,4 +16,4 @@ mod tree;
 mod vocabulary;
 
 pub use finding::{Finding, Severity, UrdfError};
-pub use load::{Attachment, LoadOptions, Loaded, load, parse};
+pub use load::{Attachment, LoadOptions, Loaded, collision_mesh_files, load, parse};
