@@ -92,7 +92,7 @@ pub(super) struct Run {
 /// Scenarios.
 #[derive(Debug, Args)]
 pub(super) struct Paths {
-    /// Scenario files, folders of them, or patterns with `*` and `?` in the file name
+    /// Scenario files, folders of them, or patterns (`*`, `?`, `[ab]`, and `**` for folders at any depth)
     #[arg(required = true, value_name = "SCENARIO")]
     pub paths: Vec<PathBuf>,
 }
@@ -166,8 +166,8 @@ impl Phase {
 /// What is checked, and where the verdict goes.
 #[derive(Debug, Args)]
 pub(super) struct Check {
-    /// Scenario files, folders of them, or patterns with `*` and `?` in the file name; folders of stored runs; files of samples (CSV or
-    /// Parquet with `time_s` and joint angles or tool poses)
+    /// Scenario files, folders of them, or patterns (`*`, `?`, `[ab]`, and `**` for folders at any depth); folders of stored runs; files of
+    /// samples (CSV or Parquet with `time_s` and joint angles or tool poses)
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
     /// Judge files of samples, also those that lie in the folders, in the scene of this scenario

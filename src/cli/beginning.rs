@@ -84,10 +84,11 @@ pub(super) fn ineffective(arguments: &Replay, global: &Global) -> Vec<String> {
     let taken_up = in_the_middle || arguments.from.is_some();
     let of_run = || RecordedManifest::read(&arguments.folder).ok().and_then(|manifest| manifest.seed());
     if taken_up && global.seed.is_some_and(|seed| of_run() != Some(seed)) {
-        faults.push(format!("--seed decides the teaching too, which {from} takes from the folder: leave one of the two out"));
+        faults
+            .push(format!("--seed (or CPDMP_SEED) decides the teaching too, which {from} takes from the folder: leave one of the two out"));
     }
     if in_the_middle && global.robot.is_some() {
-        faults.push("--robot cannot be changed in the middle of a run: leave --from-time out".to_owned());
+        faults.push("--robot (or CPDMP_ROBOT) cannot be changed in the middle of a run: leave --from-time out".to_owned());
     }
     faults
 }

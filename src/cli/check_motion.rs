@@ -8,6 +8,7 @@ use super::located::Located;
 use super::progress::Clock;
 use super::terminal::Terminal;
 use crate::check::{CriterionSpec, allow, judge_motion};
+use crate::control::WRENCH_COLUMNS;
 use crate::demonstration::{DemonstrationError, read_trajectory};
 use crate::recording::step_columns;
 use crate::report::{Checked, FileCode, InputFault, Outcome, RunReport};
@@ -92,8 +93,10 @@ fn is_of_the_scene(error: &SimulationError) -> bool {
 fn moved(experiment: &Experiment, samples: &Path, clock: &Clock) -> Result<MotionOutcome, SimulationError> {
     let setup = Setup::new(experiment)?;
     let trajectory = read_trajectory(samples)?;
-    let log: Vec<String> = step_columns(setup.arm_joints().len(), &[]).into_iter().map(|column| column.name).collect();
-    let mut odd = check_columns(&setup, &trajectory, &log)?;
+    // What a step log and a taught demonstration hold besides.
+    let log = step_columns(setup.arm_joints().len(), &[]).into_iter().map(|column| column.name);
+    let passed_over: Vec<String> = log.chain(WRENCH_COLUMNS.map(str::to_owned)).collect();
+    let mut odd = check_columns(&setup, &trajectory, &passed_over)?;
     let mut outcome = check_motion(&setup, &ArmMotion::new(&setup, &trajectory, clock)?, clock)?;
     outcome.warnings.append(&mut odd);
     Ok(outcome)

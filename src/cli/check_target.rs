@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use super::args::Check;
 use super::files::{REPORT, SKILL, STATE_LOG, STEP_LOG};
 use super::recorded_run::SCENARIO;
-use super::select::{files_like, folders_like, scenarios};
+use super::select::{entries, scenarios};
 use super::terminal::Terminal;
 use crate::report::Outcome;
 
 /// One thing to check.
+#[derive(PartialEq)]
 pub(super) enum Target {
     /// A scenario, which is simulated.
     Scenario(PathBuf),
@@ -36,7 +37,7 @@ pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Targ
                 outcome = outcome.max(Outcome::Usage);
                 continue;
             };
-            files_like(path).into_iter().map(|file| Target::Trajectory(file, scene.clone())).collect()
+            samples_in(path).into_iter().map(|file| Target::Trajectory(file, scene.clone())).collect()
         } else {
             let unjudged = if arguments.scene.is_some() { 0 } else { samples_in(path).len() };
             if unjudged > 0 {
@@ -52,7 +53,11 @@ pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Targ
             terminal.error(&format!("error: {} names no scenario, run or trajectory\n", path.display()));
             outcome = outcome.max(Outcome::NothingSelected);
         }
-        targets.extend(found);
+        for target in found {
+            if !targets.contains(&target) {
+                targets.push(target);
+            }
+        }
     }
     if outcome == Outcome::Passed && arguments.scene.is_some() && !targets.iter().any(|target| matches!(target, Target::Trajectory(..))) {
         terminal.error("error: --scene has no effect: no argument names a file of samples, or a folder that holds some\n");
@@ -74,16 +79,12 @@ pub(super) fn is_samples(path: &Path) -> bool {
     path.extension().is_some_and(|extension| SAMPLES.iter().any(|known| extension.eq_ignore_ascii_case(known)))
 }
 
-/// The files of samples in a folder, or those that match a pattern, sorted.
+/// The files of samples that an argument names, sorted.
 fn samples_in(path: &Path) -> Vec<PathBuf> {
-    let mut files = if path.is_dir() { files_like(&path.join("*")) } else { files_like(path) };
-    files.retain(|file| is_samples(file));
-    files
+    entries(path).into_iter().filter(|file| is_samples(file) && !file.is_dir()).collect()
 }
 
-/// The runs in a folder, or those that match a pattern, sorted.
+/// The runs that an argument names, sorted.
 fn runs_in(path: &Path) -> Vec<PathBuf> {
-    let mut runs = if path.is_dir() { folders_like(&path.join("*")) } else { folders_like(path) };
-    runs.retain(|path| is_run(path));
-    runs
+    entries(path).into_iter().filter(|folder| folder.is_dir() && is_run(folder)).collect()
 }

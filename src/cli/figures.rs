@@ -7,10 +7,11 @@ use serde::Serialize;
 use super::args::{Format, Global};
 use super::failure::Failure;
 use super::figure_files::{Named, draw, names, of_arm, title};
-use super::files::BESIDE;
+use super::files::{BESIDE, DEMONSTRATIONS, SKILL, STEP_LOG};
 use super::learn::read_skill;
 use super::load::options;
 use super::planar_files;
+use super::recorded_run::{RecordedManifest, SCENARIO};
 use super::terminal::Terminal;
 use crate::demonstration::Dataset;
 use crate::figure::ArmRun;
@@ -47,13 +48,18 @@ pub(super) fn figures(folder: &Path, global: &Global, terminal: &Terminal) -> Ou
 }
 
 fn of_folder(folder: &Path, global: &Global, terminal: &Terminal) -> Result<Vec<Named>, Failure> {
-    if !folder.join("manifest.json").is_file() {
-        let message = format!("{} is not the folder of a run: it holds no manifest.json", folder.display());
-        return Err(Failure::new(Outcome::InvalidInput, [message]));
+    let invalid = |message| Failure::new(Outcome::InvalidInput, [message]);
+    let manifest = RecordedManifest::read(folder).map_err(invalid)?;
+    if let Some(edited) = manifest.edited(folder) {
+        return Err(invalid(format!("{}: {edited}", folder.join(SCENARIO).display())));
+    }
+    // Files of several runs would be drawn as one that never was.
+    if let Some((path, altered)) = manifest.altered(folder, &[STEP_LOG, BESIDE, SKILL, DEMONSTRATIONS]) {
+        return Err(invalid(format!("{}: {altered}", path.display())));
     }
     // The run is drawn as it was: what would change it is not asked for.
     let asked = LoadOptions { asset_roots: options(global).asset_roots, ..LoadOptions::default() };
-    let scenario = Scenario::load(&folder.join("scenario.toml"), &asked)?;
+    let scenario = Scenario::load(&folder.join(SCENARIO), &asked)?;
     match &scenario.work {
         Work::Arm(experiment) => stored_arm(folder, experiment, &scenario.beside, terminal),
         Work::Planar(run) => repeated_plane(folder, run),
@@ -61,18 +67,18 @@ fn of_folder(folder: &Path, global: &Global, terminal: &Terminal) -> Result<Vec<
 }
 
 fn stored_arm(folder: &Path, experiment: &Experiment, beside: &[Variation], terminal: &Terminal) -> Result<Vec<Named>, Failure> {
-    let steps = read(&folder.join("steps.parquet"))?;
+    let steps = read(&folder.join(STEP_LOG))?;
     let places = beside.iter().map(|one| (one.name.as_str(), folder.join(BESIDE).join(format!("{}.parquet", one.name))));
     let (there, missing): (Vec<_>, Vec<_>) = places.partition(|(_, place)| place.is_file());
-    // What could not be executed beside the run left nothing; what is lost is to be known.
+    // What could not be executed beside the run left nothing.
     for (name, place) in missing {
-        terminal.error(&format!("warning: {} is missing: the figures are drawn without `{name}`\n", place.display()));
+        terminal.note(&format!("the run left no {}: its figures are drawn without `{name}`\n", place.display()));
     }
     let others: Vec<(&str, Vec<StepRecord>)> =
         there.into_iter().map(|(name, place)| Ok((name, read(&place)?))).collect::<Result<_, Failure>>()?;
-    let path = folder.join("skill.json");
+    let path = folder.join(SKILL);
     let skill = read_skill(&path)?;
-    let place = folder.join("demonstrations");
+    let place = folder.join(DEMONSTRATIONS);
     let dataset = Dataset::read(&place).map_err(|error| Failure::of_data(&place, &error))?;
     let learned = (&skill, &dataset, &experiment.learning);
     let run = ArmRun::new(title(&experiment.name, experiment.seed), &steps, learned, experiment.question());

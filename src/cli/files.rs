@@ -104,10 +104,13 @@ fn beside(left: &RunOutcome, folder: &Path) -> Result<(), String> {
     })
 }
 
-/// What a repetition is held against or taken up from, of what there is in the folder.
+/// What a repetition is held against or taken up from, and what figures are drawn from, of what there is in the folder.
 fn left(folder: &Path) -> Vec<FileHash> {
-    let lessons = std::fs::read_dir(folder.join(DEMONSTRATIONS)).into_iter().flatten().flatten();
-    let mut names: Vec<PathBuf> = lessons.map(|entry| Path::new(DEMONSTRATIONS).join(entry.file_name())).collect();
+    let files_in = |inner: &'static str| {
+        let found = std::fs::read_dir(folder.join(inner)).into_iter().flatten().flatten();
+        found.map(move |entry| Path::new(inner).join(entry.file_name()))
+    };
+    let mut names: Vec<PathBuf> = [DEMONSTRATIONS, BESIDE].into_iter().flat_map(files_in).collect();
     names.sort();
     names.extend([SKILL, STATE_LOG, SNAPSHOTS].map(PathBuf::from));
     names.retain(|name| folder.join(name).is_file());

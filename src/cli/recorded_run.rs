@@ -147,7 +147,7 @@ impl Recorded {
     pub fn reasons(&self, changed: bool) -> Vec<String> {
         let mut reasons = Vec::new();
         if changed {
-            reasons.push("flags make it another run than the recorded one".to_owned());
+            reasons.push("flags (or CPDMP_* variables) make it another run than the recorded one".to_owned());
         }
         reasons.extend(self.manifest.changed_inputs().map(|path| format!("{} has changed since the run", path.display())));
         let text = |value: &Value| value.as_str().unwrap_or("unknown").to_owned();

@@ -112,7 +112,18 @@ fn report_of(
 ) -> ReplayReport {
     let same = recorded.state_hash == repeated.state_hash && parting.is_none();
     let outcome = if same { Outcome::Passed } else { Outcome::ReplayDiffers };
-    let unknown = "no hashes were recorded on the way that would say where";
+    let hashes = recorded.traces.iter().map(|world| world.trace.steps.len()).sum();
+    // Each hash is one over all states up to its step: no run leaves all of them and another last one.
+    let edited = !same && parting.is_none() && hashes > 0;
+    let unknown = match edited {
+        true => "all hashes on the way are the same, up to the last step, but not the `state_hash` in manifest.json",
+        false => "no hashes were recorded on the way that would say where",
+    };
+    let reasons = match (same, edited) {
+        (true, _) => Vec::new(),
+        (false, true) => vec!["manifest.json has been edited since the run: restore it, or make the run again".to_owned()],
+        (false, false) => recorded.reasons(changed),
+    };
     let report = ReplayReport {
         schema_version: 1,
         run: arguments.folder.clone(),
@@ -122,14 +133,14 @@ fn report_of(
         exit_code: outcome.exit_code(),
         recorded_state_hash: recorded.state_hash.clone(),
         repeated_state_hash: repeated.state_hash.clone(),
-        hashes: recorded.traces.iter().map(|world| world.trace.steps.len()).sum(),
+        hashes,
         difference: (!same).then(|| unknown.to_owned()),
         phase: None,
         number: None,
         step: None,
         body: None,
         quantity: None,
-        reasons: if same { Vec::new() } else { recorded.reasons(changed) },
+        reasons,
     };
     parting.into_iter().fold(report, ReplayReport::parting)
 }

@@ -27,88 +27,32 @@ pub(super) fn select(paths: &[PathBuf], terminal: &Terminal) -> Result<Vec<PathB
 
 /// The scenarios that one argument names.
 pub(super) fn scenarios(path: &Path) -> Vec<PathBuf> {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    if path.is_dir() {
-        matching(path, "*")
-    } else if !path.exists() && name.contains(['*', '?']) {
-        matching(path.parent().unwrap_or(Path::new("")), &name)
-    } else {
+    if !path.is_dir() && !is_pattern(path) {
         // A file that is not there is a fault of its own, told when it is read.
-        vec![path.to_path_buf()]
+        return vec![path.to_path_buf()];
     }
+    let is_scenario = |file: &PathBuf| {
+        let is_toml = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+        // The list of a dataset is no scenario, and lies in its folder by this name.
+        is_toml && !file.is_dir() && file.file_name().is_none_or(|name| name != "dataset.toml")
+    };
+    entries(path).into_iter().filter(is_scenario).collect()
 }
 
-/// The files that one argument names, whatever they hold: itself, or those that match it as a pattern.
-pub(super) fn files_like(path: &Path) -> Vec<PathBuf> {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let is_pattern = !path.exists() && name.contains(['*', '?']);
-    if is_pattern { all_matching(path.parent().unwrap_or(Path::new("")), &name) } else { vec![path.to_path_buf()] }
-}
-
-/// The scenario files of a folder whose names match the pattern, sorted.
-fn matching(folder: &Path, pattern: &str) -> Vec<PathBuf> {
-    let mut files = all_matching(folder, pattern);
-    files.retain(|file| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")));
-    files
-}
-
-/// The folders that one argument names as a pattern.
-pub(super) fn folders_like(path: &Path) -> Vec<PathBuf> {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let is_pattern = !path.exists() && name.contains(['*', '?']);
-    let mut found = if is_pattern { entries_matching(path.parent().unwrap_or(Path::new("")), &name) } else { Vec::new() };
-    found.retain(|path| path.is_dir());
+/// What one argument names: what is in a folder, what matches a pattern, or itself. Sorted.
+pub(super) fn entries(path: &Path) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> = if path.is_dir() {
+        std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path()).collect()
+    } else if is_pattern(path) {
+        glob::glob(&path.to_string_lossy()).into_iter().flatten().flatten().collect()
+    } else {
+        vec![path.to_path_buf()]
+    };
+    found.sort();
     found
 }
 
-/// The files of a folder whose names match the pattern, sorted.
-fn all_matching(folder: &Path, pattern: &str) -> Vec<PathBuf> {
-    let mut files = entries_matching(folder, pattern);
-    files.retain(|file| !file.is_dir());
-    files
-}
-
-/// What is in a folder under names that match the pattern, sorted.
-fn entries_matching(folder: &Path, pattern: &str) -> Vec<PathBuf> {
-    let place = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let Ok(entries) = std::fs::read_dir(place) else { return Vec::new() };
-    let names = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
-    let mut files: Vec<PathBuf> = names.filter(|name| matches(pattern, name)).map(|name| folder.join(name)).collect();
-    files.sort();
-    files
-}
-
-/// Whether a name matches a pattern in which `*` stands for any characters and `?` for one.
-fn matches(pattern: &str, name: &str) -> bool {
-    let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
-    // reached[i]: the part of the pattern read so far matches the first i characters of the name.
-    let mut reached = vec![false; name.len() + 1];
-    reached[0] = true;
-    for symbol in pattern {
-        let mut next = vec![false; name.len() + 1];
-        for i in 0..=name.len() {
-            next[i] = match symbol {
-                '*' => reached[i] || (i > 0 && next[i - 1]),
-                '?' => i > 0 && reached[i - 1],
-                exact => i > 0 && reached[i - 1] && name[i - 1] == exact,
-            };
-        }
-        reached = next;
-    }
-    reached[name.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::matches;
-
-    #[test]
-    fn patterns_match_as_in_a_shell() {
-        for (pattern, name) in [("*.toml", "a.toml"), ("pick*", "pick_and_place.toml"), ("a?c", "abc"), ("*a*b*", "xaxxbx"), ("*", "")] {
-            assert!(matches(pattern, name), "{pattern} {name}");
-        }
-        for (pattern, name) in [("*.toml", "a.tom"), ("a?c", "ac"), ("a", "ab"), ("", "a")] {
-            assert!(!matches(pattern, name), "{pattern} {name}");
-        }
-    }
+/// Whether it is a pattern: nothing bears the name itself.
+fn is_pattern(path: &Path) -> bool {
+    !path.exists() && path.to_string_lossy().contains(['*', '?', '['])
 }

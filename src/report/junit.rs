@@ -17,7 +17,11 @@ const COMPLETED: &str = "completed";
 pub fn junit(report: &CheckReport) -> String {
     let mut document = Report::new("cpdmp check");
     document.set_time(seconds(report.wall_s));
-    document.add_test_suites(report.checks.iter().map(suite));
+    let alone = |name: &str| report.checks.iter().filter(|check| name_of(check) == name).count() == 1;
+    document.add_test_suites(report.checks.iter().map(|check| {
+        let name = name_of(check);
+        suite(if alone(name) { name } else { &check.path }, check)
+    }));
     document.to_string().expect("a string takes everything that is written to it")
 }
 
@@ -37,9 +41,14 @@ fn seconds(wall_s: f64) -> Duration {
     Duration::from_secs_f64(wall_s.max(0.0))
 }
 
-fn suite(check: &Checked) -> TestSuite {
+/// The name of the scenario that was simulated; of anything else the path.
+fn name_of(check: &Checked) -> &str {
     let simulated = check.report.as_ref().filter(|_| check.kind == "scenario");
-    let name = simulated.map_or(&check.path, |report| &report.scenario);
+    simulated.map_or(&check.path, |report| &report.scenario)
+}
+
+/// The suite of a check, under a name that no other suite of the document bears.
+fn suite(name: &str, check: &Checked) -> TestSuite {
     let mut suite = TestSuite::new(name);
     suite.set_time(seconds(check.wall_s));
     suite.add_property(Property::new("file", &check.path));

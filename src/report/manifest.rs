@@ -41,7 +41,7 @@ pub struct Manifest {
     pub report_xxh3_64: Option<String>,
     /// The same of its `steps.parquet`; `null` when there is none.
     pub steps_xxh3_64: Option<String>,
-    /// What else it left that a repetition is held against or taken up from, as paths in the folder.
+    /// What else it left that a repetition is held against or taken up from, or figures are drawn from, as paths in the folder.
     pub left: Vec<FileHash>,
     /// The files that decide the run.
     pub inputs: Vec<FileHash>,

@@ -53,7 +53,8 @@ fn nothing_asked(scenario: &Node, faults: &mut Vec<Fault>) {
     let asks = |criterion: &Node| criterion.get("expect").and_then(Node::as_text) != Some("report");
     if !list(scenario, "criterion").iter().any(asks) {
         let message = "without a criterion this passes, whatever touches and wherever the movement ends";
-        faults.push(Fault::at(Code::MissingKey, scenario.origin, message).expected("a [[criterion]] that is not only reported").warning());
+        faults
+            .push(Fault::at(Code::NothingAsked, scenario.origin, message).expected("a [[criterion]] that is not only reported").warning());
     }
 }
 

@@ -53,11 +53,13 @@ pub enum Code {
     Scene,
     /// A description of a robot that cannot be used.
     Robot,
+    /// No criterion can fail.
+    NothingAsked,
 }
 
 impl Code {
     /// Every code, in the order in which `cpdmp explain` lists them.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Unreadable,
         Self::Encoding,
         Self::Syntax,
@@ -78,6 +80,7 @@ impl Code {
         Self::Untaught,
         Self::Scene,
         Self::Robot,
+        Self::NothingAsked,
     ];
 
     /// Its name and its meaning in one sentence.
@@ -105,6 +108,7 @@ impl Code {
                 ("scene", "what the scenario asks for is not possible with its robot or in its scene: a pose, a way, a place, a name")
             }
             Self::Robot => ("robot", "the robot's description (URDF) cannot be used, or says something odd (a warning)"),
+            Self::NothingAsked => ("nothing_asked", "no criterion of the scenario can fail: whatever happens passes (a warning)"),
         }
     }
 }

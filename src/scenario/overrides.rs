@@ -7,7 +7,7 @@ use super::layer::merge;
 use super::parse;
 use super::source::{COMMAND_LINE, Origin, Source, SourceId, Sources};
 use super::suggest::{did_you_mean, name_list};
-use super::tree::{Entry, Node, Value};
+use super::tree::{Entry, Node, Value, index_of};
 
 /// Applies one override as typed after the flag `name` of the command line (`object.toy.radius_m=0.035`).
 pub(super) fn set(tree: &mut Node, name: &str, typed: &str, sources: &mut Sources, faults: &mut Vec<Fault>) {
@@ -46,11 +46,8 @@ pub fn spelled(key: &str) -> String {
 pub(super) fn steps(tree: &Node, key: &str) -> Vec<String> {
     let mut at = Some(tree);
     let step = |name: &str| {
-        let index = match at.map(|node| &node.value) {
-            Some(Value::List(items)) => find(items, name),
-            _ => None,
-        };
-        at = index.map_or_else(|| at.and_then(|node| node.get(name)), |index| at.and_then(|node| node.items().get(index)));
+        let index = at.and_then(|node| index_of(node.items(), name));
+        at = at.and_then(|node| node.step(name));
         index.map_or_else(|| name.to_owned(), |index| index.to_string())
     };
     key.split('.').map(str::trim).map(step).collect()
@@ -135,15 +132,9 @@ fn entry<'a>(entries: &'a mut Vec<Entry>, step: &Step<'_>) -> &'a mut Node {
     &mut entries[index].node
 }
 
-/// The number of an item that is called by its name, or by its number from 0.
-fn find(items: &[Node], name: &str) -> Option<usize> {
-    let by_name = items.iter().position(|item| item.name() == Some(name));
-    by_name.or_else(|| name.parse().ok().filter(|&index: &usize| index < items.len()))
-}
-
 /// An item of a list.
 fn item<'a>(items: &'a mut [Node], step: &Step<'_>) -> Result<&'a mut Node, Fault> {
-    if let Some(index) = find(items, step.name) {
+    if let Some(index) = index_of(items, step.name) {
         return Ok(&mut items[index]);
     }
     let names: Vec<&str> = items.iter().filter_map(Node::name).collect();

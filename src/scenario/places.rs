@@ -52,7 +52,7 @@ impl Places {
     fn find(&self, key: &str) -> Option<(&Node, bool)> {
         let mut at: Option<&Node> = None;
         for step in key.split('.') {
-            match inner(at.unwrap_or(&self.0.0), step) {
+            match at.unwrap_or(&self.0.0).step(step) {
                 Some(next) => at = Some(next),
                 // A list as a whole stands for none of its parts.
                 None => return at.filter(|node| !matches!(node.value, Value::List(_))).map(|node| (node, false)),
@@ -60,12 +60,6 @@ impl Places {
         }
         at.map(|node| (node, true))
     }
-}
-
-fn inner<'a>(node: &'a Node, step: &str) -> Option<&'a Node> {
-    let named = || node.items().iter().find(|item| item.name() == Some(step));
-    let numbered = || node.items().get(step.parse::<usize>().ok()?);
-    node.get(step).or_else(named).or_else(numbered)
 }
 
 /// A named table is best shown where its name stands.

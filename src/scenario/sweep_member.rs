@@ -57,10 +57,7 @@ impl Setting {
 
 /// `KEY=VALUE` of a key that varies. A path is taken as it was filled in: it is seen from the current folder there, not from the file's.
 pub(super) fn override_of(key: &str, typed: &Node, filled: &Node) -> String {
-    let found = key.split('.').try_fold(filled, |node, step| {
-        let by_number = || node.items().get(step.trim().parse::<usize>().ok()?);
-        node.get(step.trim()).or_else(|| node.items().iter().find(|item| item.name() == Some(step.trim()))).or_else(by_number)
-    });
+    let found = key.split('.').try_fold(filled, |node, step| node.step(step.trim()));
     let node = found.filter(|node| node.as_text().is_some()).unwrap_or(typed);
     format!("{}={}", key.trim(), literal(node))
 }

@@ -80,6 +80,11 @@ impl Node {
         if let Value::List(items) = &self.value { items } else { &[] }
     }
 
+    /// The part that one step of a dotted key leads to: a key of a table, an item of a list by its name or by its number from 0.
+    pub fn step(&self, name: &str) -> Option<&Node> {
+        self.get(name).or_else(|| self.items().get(index_of(self.items(), name)?))
+    }
+
     /// The text, if it is one.
     pub fn as_text(&self) -> Option<&str> {
         if let Value::Text(text) = &self.value { Some(text) } else { None }
@@ -110,4 +115,10 @@ impl Node {
         let index = entries.iter().position(|entry| entry.key == key)?;
         Some(entries.remove(index))
     }
+}
+
+/// The number of the item that is called by its name, or by its number from 0.
+pub(super) fn index_of(items: &[Node], name: &str) -> Option<usize> {
+    let by_name = items.iter().position(|item| item.name() == Some(name));
+    by_name.or_else(|| name.parse().ok().filter(|&index: &usize| index < items.len()))
 }

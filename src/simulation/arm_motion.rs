@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
+use super::arm_columns::POSE;
 use super::{Progress, Setup, SimulationError};
 use crate::demonstration::{QUATERNION_COLUMNS, Trajectory};
 use crate::world::{ObjectKind, support_height_m};
@@ -104,7 +105,7 @@ impl ArmMotion {
 
 /// The poses in the columns `PREFIX_x_m` … `PREFIX_qw`, or without a prefix.
 pub(super) fn poses(trajectory: &Trajectory, prefix: &str) -> Option<Vec<Isometry3<f64>>> {
-    let names = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"].map(|name| format!("{prefix}{name}"));
+    let names = POSE.map(|name| format!("{prefix}{name}"));
     let values = trajectory.select(&names).ok()?;
     let pose = |row: nalgebra::RowDVector<f64>| {
         let turn = Quaternion::new(row[6], row[3], row[4], row[5]);

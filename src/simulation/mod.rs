@@ -2,6 +2,7 @@
 //!
 //! Data flows one way: an [`Experiment`] goes in, a [`RunOutcome`] comes out, and everything told about a step is a [`StepRecord`].
 
+mod arm_columns;
 mod arm_motion;
 mod astray;
 mod beside;

@@ -2,13 +2,11 @@
 
 use nalgebra::Isometry3;
 
+use super::arm_columns::{ArmColumns, POSE};
 use super::arm_motion::poses;
 use super::{Setup, SimulationError};
 use crate::demonstration::Trajectory;
 use crate::world::{Object, support_height_m};
-
-/// The columns of a pose.
-const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"];
 
 /// How far samples may have an object from where the scene keeps it before that is worth a word (m, and rad).
 const KEPT: f64 = 2e-3;
@@ -17,20 +15,14 @@ const KEPT: f64 = 2e-3;
 /// `passed_over`, such as the forces in a step log, are not spoken of.
 ///
 /// # Errors
-/// When columns tell of other joints of the robot than the working arm's, describe the arm in two ways, or give half a pose of an object.
+/// When columns tell of other joints of the robot than the working arm's, describe the arm in two ways that do not agree, or give half a pose of an object.
 pub fn check_columns(setup: &Setup, trajectory: &Trajectory, passed_over: &[String]) -> Result<Vec<String>, SimulationError> {
     let joints: Vec<String> = setup.arm_joints().into_iter().map(|joint| joint.name).collect();
-    let named: Vec<String> = joints.iter().map(|name| format!("{name}_rad")).collect();
-    let counted: Vec<String> = (1..=joints.len()).map(|number| format!("q{number}_rad")).collect();
-    let pose = POSE.map(str::to_owned).to_vec();
+    let arm = ArmColumns::of(&joints);
     let there = |names: &[String]| names.iter().filter(|name| trajectory.column_index(name).is_some()).cloned().collect::<Vec<_>>();
     let mut faults = others(setup, trajectory, &joints);
-    let arm: Vec<Vec<String>> = [&named, &counted, &pose].map(|names| there(names)).into_iter().filter(|names| !names.is_empty()).collect();
-    if arm.len() > 1 {
-        let ways = arm.iter().map(|names| format!("[{}]", names.join(", "))).collect::<Vec<_>>().join(" and by ");
-        faults.push(format!("it describes the arm by {ways}, which may contradict each other: keep one of them"));
-    }
-    let mut used: Vec<String> = [named, counted, pose, vec!["gripper".to_owned(), "gripper_opening".to_owned()]].concat();
+    faults.extend(arm.contradiction(setup, trajectory));
+    let mut used: Vec<String> = [arm.all(), vec!["gripper".to_owned(), "gripper_opening".to_owned()]].concat();
     let mut odd = Vec::new();
     for object in &setup.experiment.objects {
         let prefixes = [format!("object_{}_", object.name), format!("{}_", object.name)];

@@ -21,7 +21,8 @@ const STOP_RAD: f64 = 1e-3;
 /// What helps when a pose of a lesson cannot be reached.
 pub(super) const MOVE: &str = "move the object or the way-point";
 /// What helps when a pose of a skill cannot be reached.
-pub(super) const ASK_NEARER: &str = "ask for a setting nearer to those that were demonstrated, or give another `robot.rest_posture_rad`: the arm keeps near it on the whole way";
+pub(super) const ASK_NEARER: &str = "ask for a setting nearer to those that were demonstrated, or give another \
+     `robot.rest_posture_rad`: the arm keeps near it on the whole way";
 
 impl Setup {
     /// Solves the way `path`, which is that of `whose` lesson; returns the posture at its start (rad).

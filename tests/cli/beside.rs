@@ -61,12 +61,14 @@ fn what_stands_beside_a_run_is_told_and_changes_nothing() {
     }
     assert!(String::from_utf8_lossy(&drawing(&place.join("figures"), "forces.svg")).contains("longer"));
 
-    // What is lost is said, and the rest is drawn.
-    fs::remove_file(place.join("beside/longer.parquet")).expect("removed");
-    let said = folder.call(&["figures", "run", "--out", "drawn", "-q"]);
-    assert_eq!(said.code, Some(0), "{}", said.stderr);
-    assert!(said.stderr.contains("beside/longer.parquet is missing"), "{}", said.stderr);
-    assert!(!said.stderr.contains("lwr.parquet"), "{}", said.stderr);
+    // Neither what is lost is passed over in silence, nor what another run left is drawn as this one's.
+    let longer = place.join("beside/longer.parquet");
+    fs::copy(place.join("beside/lwr.parquet"), &longer).expect("copied");
+    let said = folder.call(&["figures", "run", "--out", "drawn"]);
+    assert!(said.code == Some(3) && said.stderr.contains("longer.parquet: this is not the file that the run wrote"), "{}", said.stderr);
+    fs::remove_file(&longer).expect("removed");
+    let said = folder.call(&["figures", "run", "--out", "drawn"]);
+    assert!(said.code == Some(3) && said.stderr.contains("longer.parquet") && said.stderr.contains("it is gone"), "{}", said.stderr);
 
     let said = folder.call(&["check", "a.toml", "--format", "json"]);
     assert_eq!(said.code, Some(0), "{}", said.stderr);

@@ -124,6 +124,40 @@ fn columns_that_cannot_be_followed_are_refused() {
     }
 }
 
+/// Contract: joints and a tool that are of one movement are judged; when they part, it is told by how much and when.
+#[test]
+fn joints_and_tool_are_one_movement_or_refused() {
+    let scene = folder("");
+    let Ok(Scenario { work: Work::Arm(experiment), .. }) = Scenario::load(&scene.path().join("a.toml"), &LoadOptions::default()) else {
+        panic!("an arm");
+    };
+    let robot = Setup::new(&experiment).expect("a robot").robot.clone();
+    let chain = cpdmp::robot::SerialChain::new(&robot, "base", &experiment.robot.tool_link).expect("an arm");
+    let mut state = chain.state();
+    chain.forward_kinematics(&REST, &mut state);
+    let tool = state.tip_pose();
+    let (place, turn) = (tool.translation.vector, tool.rotation.coords);
+    let columns = |off_m: f64| {
+        [
+            ("x_m", place.x + off_m),
+            ("y_m", place.y),
+            ("z_m", place.z),
+            ("qx", turn.x),
+            ("qy", turn.y),
+            ("qz", turn.z),
+            ("qw", turn.w),
+            ("fx_n", 1.0),
+        ]
+    };
+    let one = checked(&folder(&samples(&[REST, REST], &columns(1e-4))), &[], 0);
+    assert_eq!(warnings(&one), "[]", "{one:#}");
+    let two = checked(&folder(&samples(&[REST, REST], &columns(0.03))), &[], 3).to_string();
+    assert!(
+        two.contains("and by [x_m, y_m, z_m, qx, qy, qz, qw]") && two.contains("up to 30.0 mm and 0.0 deg apart (at 0.000 s)"),
+        "{two}"
+    );
+}
+
 /// Contract: a column of which nothing is taken, and an object that the scene keeps elsewhere, are warned of; what a step log holds is not.
 #[test]
 fn columns_that_say_nothing_are_warned_of() {

@@ -100,6 +100,16 @@ fn figures_are_drawn_again_from_the_folder_alone() {
     assert_eq!((said.code, json(&said.stdout)["figures"][0].as_str()), (Some(0), Some("motion.svg")), "{}", said.stderr);
     assert!(figures(&place.join("figures")) == first, "the bytes differ");
 
+    // Files of two runs are no run.
+    let scenario = fs::read_to_string(place.join("scenario.toml")).expect("text");
+    fs::write(place.join("scenario.toml"), scenario.replacen("seed = 0", "seed = 1", 1)).expect("written");
+    let said = folder.call(&["figures", "moved"]);
+    assert!(said.code == Some(3) && said.stderr.contains("not the scenario that was run"), "{}", said.stderr);
+    fs::write(place.join("scenario.toml"), scenario).expect("written");
+    let skill = fs::read_to_string(place.join("skill.json")).expect("text");
+    fs::write(place.join("skill.json"), skill + "\n").expect("written");
+    let said = folder.call(&["figures", "moved"]);
+    assert!(said.code == Some(3) && said.stderr.contains("skill.json: this is not the file that the run wrote"), "{}", said.stderr);
     fs::remove_file(place.join("steps.parquet")).expect("removed");
     for (arguments, words) in [(["figures", "moved"], "steps.parquet"), (["figures", "again"], "manifest.json")] {
         let said = folder.call(&arguments);
@@ -125,6 +135,17 @@ fn a_recorded_dataset_stands_for_the_teaching() {
     assert_eq!(said.code, Some(0), "{}{}", said.stdout, said.stderr);
     let phases = json(&said.stdout)["phases"].as_array().expect("a list").iter().map(|phase| phase["name"].clone()).collect::<Vec<_>>();
     assert_eq!(phases, ["learn", "execute"]);
+
+    // And they can be judged as movements: that they tell the arm by its joints and by its tool is no contradiction. Their list is no scenario.
+    let said = folder.call(&["check", "taught/demonstrations", "--scene", "a.toml", "--format", "json", "-q"]);
+    let checks = json(&said.stdout)["checks"].as_array().expect("a list").clone();
+    assert_eq!(checks.len(), 3, "{checks:#?}");
+    for check in checks {
+        assert_eq!((check["kind"].as_str(), check["faults"].as_array().map(Vec::len)), (Some("trajectory"), Some(0)), "{check:#}");
+        assert_eq!(check["report"]["warnings"].as_array().map(Vec::len), Some(0), "{check:#}");
+    }
+    let said = folder.call(&["check", "taught/demonstrations"]);
+    assert!(said.code == Some(5) && said.stderr.contains("say with --scene"), "{}", said.stderr);
 }
 
 /// Contract: taught demonstrations hold tool and joints, so that one dataset serves a skill of either.

@@ -88,7 +88,7 @@ fn a_run_that_is_taken_up_goes_on_in_the_same_bits() {
     for (flags, told) in [
         (&["--from", "learn", "--set", "teaching . lessons=2"][..], "--set teaching.lessons has no effect with --from learn"),
         (&["--from", "execute", "--set", "learning.motion.states=5"], "--set learning.motion.states has no effect with --from execute"),
-        (&["--from", "execute", "--seed", "9"], "--seed decides the teaching"),
+        (&["--from", "execute", "--seed", "9"], "--seed (or CPDMP_SEED) decides the teaching"),
         (&["--set", "recording.hash_every_steps=7"], "replay compares what the run recorded"),
     ] {
         let said = folder.call(&[&["replay", "run"], flags].concat());
@@ -123,7 +123,7 @@ fn a_run_is_taken_up_in_the_middle() {
     for (flags, code, told) in [
         (&["--from-time", "0.5"][..], 3, "the first snapshot of the run is that of 0.900 s"),
         (&["--from-time", "2", "--set", "object.toy.friction=0.1"], 2, "only [human] goes with --from-time"),
-        (&["--from-time", "2", "--seed", "3"], 2, "--seed decides the teaching"),
+        (&["--from-time", "2", "--seed", "3"], 2, "--seed (or CPDMP_SEED) decides the teaching"),
         (&["--from-time", "-1"], 2, "seconds since the execution began"),
         (&["--from-time", "2", "--from", "learn"], 2, "cannot be used with"),
     ] {
@@ -150,7 +150,7 @@ fn a_run_is_taken_up_in_the_middle() {
 #[test]
 fn another_version_or_architecture_is_named_as_the_reason() {
     let shipped = include_str!("../../scenarios/obstacle_avoidance.toml");
-    let folder = ran(&[("a.toml", shipped.as_bytes())], &[]);
+    let folder = ran(&[("a.toml", shipped.as_bytes())], &["--set", "recording.hash_every_steps=0"]);
     let manifest = folder.path().join("run/manifest.json");
     let mut other: Value = serde_json::from_str(&fs::read_to_string(&manifest).expect("text")).expect("JSON");
     other["version"] = "0.0.1".into();
@@ -171,10 +171,20 @@ fn the_seed_of_the_run_is_no_other_seed() {
     for from in [&["--from", "execute"][..], &["--from-time", "2.5"]] {
         assert_eq!(told(&folder, &[from, &["--seed", "0"]].concat()).0, Some(0), "{from:?}");
     }
-    let manifest = folder.path().join("run/manifest.json");
-    let mut other: Value = serde_json::from_str(&fs::read_to_string(&manifest).expect("text")).expect("JSON");
-    other["state_hash"] = "0123456789abcdef".into();
-    fs::write(&manifest, other.to_string()).expect("written");
+    let with_another_hash = |folder: &Folder| {
+        let manifest = folder.path().join("run/manifest.json");
+        let mut other: Value = serde_json::from_str(&fs::read_to_string(&manifest).expect("text")).expect("JSON");
+        other["state_hash"] = "0123456789abcdef".into();
+        fs::write(&manifest, other.to_string()).expect("written");
+    };
+    // Where hashes on the way show that the run is the same, only the manifest can be wrong.
+    with_another_hash(&folder);
+    let (code, edited) = told(&folder, &[]);
+    let (difference, reasons) = (edited["difference"].to_string(), edited["reasons"].to_string());
+    assert!(code == Some(13) && difference.contains("are the same, up to the last step"), "{edited}");
+    assert!(reasons.contains("manifest.json has been edited") && !reasons.contains("bug"), "{edited}");
+    let folder = ran(&[("a.toml", format!("{GOOD}{PUSHED}").as_bytes())], &["--set", "recording.hash_every_steps=0"]);
+    with_another_hash(&folder);
     let of_environment = super::cpdmp()
         .current_dir(folder.path())
         .args(["replay", "run", "--format", "json", "-q"])
