@@ -9,6 +9,7 @@ use super::args::{Check, Global, Printed};
 use super::check_motion::judged_trajectory;
 use super::check_run::judged_again;
 use super::check_target::{Target, targets};
+use super::global_flags::is_command;
 use super::judged_run::judged_run;
 use super::load::options;
 use super::progress::Clock;
@@ -23,6 +24,11 @@ use crate::simulation::Progress;
 /// Checks everything that the arguments name, on all cores. One that cannot be run does not keep the others from being checked; the worst
 /// outcome counts.
 pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> Outcome {
+    if let Some(device) = arguments.junit.as_deref().filter(|path| path.starts_with("/dev") || path.starts_with("/proc")) {
+        let device = device.display();
+        terminal.error(&format!("error: --junit {device}: it is no file that a verdict could be kept in; --format junit prints it\n"));
+        return Outcome::Usage;
+    }
     // Whether the verdict can be written is known before minutes are spent on it; and until it is written, an earlier one does not stand for it.
     let lock = arguments.junit.as_deref().map(|path| lock_beside(&followed(path))).transpose();
     let _held_until_the_end = match lock {
@@ -53,14 +59,16 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
     write(&junit(&report)).map_or_else(|error| report.outcome.max(not_written(&error, terminal)), |()| report.outcome)
 }
 
-/// An earlier verdict does not stand for a check whose command line made no sense, which nobody has read to its end: the file that follows
-/// `--junit` says so from here on, if there is one.
+/// An earlier verdict does not stand for a check whose command line made no sense, which nobody has read to its end: the files that follow
+/// `--junit` say so from here on, if there are any. `words` are those after the program's name.
 pub(super) fn withdraw_verdict(words: impl Iterator<Item = OsString>) {
     let words: Vec<OsString> = words.collect();
-    let attached = |word: &OsString| word.to_str().and_then(|word| word.strip_prefix("--junit=")).map(OsString::from);
-    let after = || words.windows(2).find(|pair| pair[0] == "--junit").map(|pair| pair[1].clone());
-    let file = words.iter().find_map(attached).or_else(after).map(PathBuf::from);
-    if let Some(file) = file.filter(|file| words.iter().any(|word| word == "check") && file.is_file()) {
+    if words.iter().filter_map(|word| word.to_str()).find(|word| is_command(word)) != Some("check") {
+        return;
+    }
+    let attached = words.iter().filter_map(|word| word.to_str()?.strip_prefix("--junit=").map(PathBuf::from));
+    let after = words.windows(2).filter(|pair| pair[0] == "--junit").map(|pair| PathBuf::from(&pair[1]));
+    for file in attached.chain(after).filter(|file| file.is_file()) {
         // What is no JUnit is left alone, and what cannot be written was not ours to withdraw.
         _ = replace_file(&file, junit_without_verdict().as_bytes(), Replaceable::Junit);
     }
@@ -85,7 +93,7 @@ fn simulated(path: &Path, options: &LoadOptions, global: &Global, terminal: &Ter
             if global.deny_warnings {
                 run.report.deny_warnings();
             }
-            let warnings = faults(&scenario.warnings);
+            let warnings = [faults(&scenario.warnings), faults(&run.odd)].concat();
             if run.report.outcome == Outcome::InvalidInput && !run.refusal.is_empty() {
                 terminal.faults(&run.refusal.faults);
                 return Checked::refused(name, "scenario", [run.refusal.for_report(path), warnings].concat(), clock.elapsed_s());

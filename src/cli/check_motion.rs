@@ -12,7 +12,7 @@ use crate::control::WRENCH_COLUMNS;
 use crate::demonstration::{DemonstrationError, read_trajectory};
 use crate::recording::step_columns;
 use crate::report::{Checked, FileCode, InputFault, Outcome, RunReport};
-use crate::scenario::{LoadOptions, Scenario, Work};
+use crate::scenario::{Diagnostic, LoadOptions, Scenario, Work};
 use crate::simulation::{ArmMotion, Experiment, MotionOutcome, Progress, Setup, SimulationError, check_columns, check_motion};
 
 /// Judges the movement in the file `samples` in the scene of `scene`.
@@ -35,7 +35,7 @@ pub(super) fn judged(
     options: &LoadOptions,
     clock: &Clock,
     terminal: &Terminal,
-    report: impl FnOnce(&Scenario) -> Result<RunReport, Vec<InputFault>>,
+    report: impl FnOnce(&Scenario) -> Result<(RunReport, Vec<Diagnostic>), Vec<InputFault>>,
 ) -> Checked {
     let name = path.display().to_string();
     let scenario = match Scenario::load(scene, options) {
@@ -46,30 +46,32 @@ pub(super) fn judged(
         }
     };
     match report(&scenario) {
-        Ok(mut report) => {
+        Ok((mut report, odd)) => {
+            report.warnings.extend(odd.iter().map(ToString::to_string));
             report.warnings.iter().for_each(|warning| terminal.note(&format!("{name}: warning: {warning}\n")));
             report.locate(|key| scenario.places.get(key));
             if options.deny_warnings {
                 report.deny_warnings();
             }
-            Checked::judged(name, kind, report, faults(&scenario.warnings), clock.elapsed_s())
+            Checked::judged(name, kind, report, [faults(&scenario.warnings), faults(&odd)].concat(), clock.elapsed_s())
         }
         Err(faults) => Checked::refused(name, kind, faults, clock.elapsed_s()),
     }
 }
 
-/// The report of the movement in the file `samples`, by `criteria` and what every movement is asked.
+/// The report of the movement in the file `samples`, by `criteria` and what every movement is asked; and what is odd about the robot's file.
 pub(super) fn movement(
     experiment: &Experiment,
     scenario: &Scenario,
     criteria: &[CriterionSpec],
     samples: &Path,
     clock: &Clock,
-) -> Result<RunReport, Vec<InputFault>> {
+) -> Result<(RunReport, Vec<Diagnostic>), Vec<InputFault>> {
     match moved(experiment, samples, clock) {
         Ok(mut outcome) => {
             allow(&mut outcome.collisions, &scenario.allowed_contacts);
-            Ok(RunReport::of_motion(experiment, &outcome, &judge_motion(&outcome, experiment, criteria)))
+            let report = RunReport::of_motion(experiment, &outcome, &judge_motion(&outcome, experiment, criteria));
+            Ok((report, Located::default().with(&outcome.robot_warnings).faults))
         }
         Err(SimulationError::Demonstrations(error)) => Err(of_data(samples, &error)),
         Err(error) if is_of_the_scene(&error) => {
@@ -79,7 +81,10 @@ pub(super) fn movement(
         Err(error) if outcome_of(&error) == Outcome::InvalidInput => {
             Err(vec![InputFault::of_file(samples, FileCode::Trajectory, error.to_string())])
         }
-        Err(error) => Ok(RunReport::failed(&experiment.name, experiment.seed, outcome_of(&error), &error.to_string())),
+        Err(error) => {
+            let report = RunReport::failed(&experiment.name, experiment.seed, outcome_of(&error), &error.to_string());
+            Ok((report, Vec::new()))
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use super::recorded_run::{RecordedManifest, SCENARIO, as_recorded};
 use super::terminal::Terminal;
 use crate::check::{Criterion, not_judged};
 use crate::report::{Change, Checked, FileCode, InputFault, Outcome, RecordedReport, RunReport};
-use crate::scenario::{LoadOptions, Scenario, Work};
+use crate::scenario::{Diagnostic, LoadOptions, Scenario, Work};
 
 /// What a stored run is called in reports.
 const KIND: &str = "run";
@@ -46,22 +46,28 @@ pub(super) fn judged_again(folder: &Path, options: &LoadOptions, clock: &Clock, 
         let record = RecordedReport::read(folder).map_err(|fault| vec![fault])?;
         let criteria = recorded.as_ref().map_or(&[][..], |recorded| &recorded.criteria);
         let change = Change { ran: criteria, asked: &scenario.criteria, scene: ran.is_in_another_scene(scenario) };
-        Ok(again(scenario, &record, folder, clock)?.with_record(&record, change))
+        let (report, odd) = again(scenario, &record, folder, clock)?;
+        Ok((report.with_record(&record, change), odd))
     })
 }
 
 /// What its log tells. Of a run that was cut short the log holds only the beginning, if there is one.
-fn again(scenario: &Scenario, record: &RecordedReport, folder: &Path, clock: &Clock) -> Result<RunReport, Vec<InputFault>> {
+fn again(
+    scenario: &Scenario,
+    record: &RecordedReport,
+    folder: &Path,
+    clock: &Clock,
+) -> Result<(RunReport, Vec<Diagnostic>), Vec<InputFault>> {
     let log = folder.join(STEP_LOG);
     let unjudged = |reason| not_judged(&scenario.criteria, reason);
     let nothing = |criteria: &[Criterion]| RunReport::unjudged(scenario.work.name(), scenario.work.seed(), criteria);
     let Work::Arm(experiment) = &scenario.work else {
-        return Ok(nothing(&unjudged("paths in a plane are not judged again")));
+        return Ok((nothing(&unjudged("paths in a plane are not judged again")), Vec::new()));
     };
     if record.is_whole() && (record.outcome != Outcome::OutputFailed || log.is_file()) {
         return movement(experiment, scenario, &scenario.criteria, &log, clock);
     }
     let criteria = unjudged(if record.is_whole() { "the run could not write its log" } else { "the run did not come to its end" });
     let begun = log.is_file().then(|| movement(experiment, scenario, &[], &log, clock).ok()).flatten();
-    Ok(begun.map_or_else(|| nothing(&criteria), |report| report.with_criteria(&criteria)))
+    Ok(begun.map_or_else(|| (nothing(&criteria), Vec::new()), |(report, odd)| (report.with_criteria(&criteria), odd)))
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::args::Check;
-use super::files::{REPORT, SKILL, STATE_LOG, STEP_LOG};
+use super::files::{REPORT, SKILL, SNAPSHOTS, STATE_LOG, STEP_LOG};
 use super::recorded_run::SCENARIO;
 use super::select::{entries, scenarios};
 use super::terminal::Terminal;
@@ -70,7 +70,7 @@ pub(super) fn targets(arguments: &Check, terminal: &Terminal) -> Result<Vec<Targ
 fn is_run(path: &Path) -> bool {
     let held = |names: &[&str]| names.iter().filter(|name| path.join(name).exists()).count();
     // A scenario and a skill may lie side by side in anybody's folder; what only a run leaves does not.
-    let left = held(&[REPORT, STEP_LOG, STATE_LOG]);
+    let left = held(&[REPORT, STEP_LOG, STATE_LOG, SNAPSHOTS, "recording.rrd"]);
     held(&["manifest.json"]) > 0 || (left > 0 && left + held(&[SCENARIO, SKILL]) > 1)
 }
 

@@ -59,9 +59,21 @@ pub(super) fn draw(figures: &[Named], folder: &Path) -> Vec<String> {
     figures.iter().filter_map(|figure| written(figure).err()).collect()
 }
 
+/// The same, with what went wrong in one sentence.
+pub(super) fn drawn(figures: &[Named], folder: &Path) -> Result<(), String> {
+    match &draw(figures, folder)[..] {
+        [] => Ok(()),
+        [failure] => Err(failure.clone()),
+        [first, others @ ..] => Err(format!("{first}, nor {} more of its folder", others.len())),
+    }
+}
+
 /// Writes a file beside its place and renames it: there is never half a figure.
 fn replace(path: &Path, content: &[u8]) -> Result<(), OutputError> {
     let beside: PathBuf = path.with_added_extension("partial");
-    write_file(&beside, content)?;
+    write_file(&beside, content).map_err(|error| match error {
+        OutputError::Io { source, .. } => OutputError::Io { path: path.to_path_buf(), source },
+        other => other,
+    })?;
     fs::rename(&beside, path).map_err(|source| OutputError::Io { path: path.to_path_buf(), source })
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::judged_run::{JudgedRun, Left};
+use super::room::Room;
 use super::{figure_files, planar_files};
 use crate::recording;
 use crate::report::{FileHash, Manifest, Outcome, OutputError, RunFolder, hash_bytes, hash_file, write_file};
@@ -31,73 +32,97 @@ pub(super) const SKILL: &str = "skill.json";
 /// The folder with what was learned from.
 pub(super) const DEMONSTRATIONS: &str = "demonstrations";
 
-/// Writes everything into the folder. What cannot be written of a recording is returned, and told in the report, which is written all the
-/// same.
-pub(super) fn write(run: &mut JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<Vec<String>, OutputError> {
-    let failures = run.left.as_ref().map(|left| recordings(left, scenario, folder.staging())).unwrap_or_default();
-    let lost: Vec<String> = failures.into_iter().map(|failure| format!("not written: {failure}")).collect();
-    if !lost.is_empty() {
-        run.report.end_as(run.report.outcome.max(Outcome::OutputFailed));
-        run.report.warnings.extend(lost.iter().cloned());
+/// What can be made again from the rest of a folder, or only shows it: it goes first when there is no room.
+const SPARE: [&str; 3] = ["recording.rrd", "figures", BESIDE];
+
+/// Writes everything into the folder; `spare` gives up what only served during the run. What cannot be written of a recording is returned, and told
+/// in the report, which is written all the same.
+pub(super) fn write(
+    run: &mut JudgedRun,
+    scenario: &Scenario,
+    folder: &RunFolder,
+    started: SystemTime,
+    spare: &dyn Fn(),
+) -> Result<Vec<String>, OutputError> {
+    let mut room = Room::new(folder.staging(), spare);
+    if let Some(left) = &run.left {
+        recordings(left, scenario, &mut room);
     }
+    let mut lost: Vec<String> = Vec::new();
+    loop {
+        for failure in &room.failures[lost.len()..] {
+            lost.push(format!("not written: {}", folder.in_place(failure)));
+            run.report.end_as(run.report.outcome.max(Outcome::OutputFailed));
+            run.report.warnings.extend(lost.last().cloned());
+        }
+        match vouched(run, scenario, folder, started) {
+            Ok(()) => return Ok(lost),
+            Err(error) if !room.clear(&SPARE, &error.to_string()) => return Err(error),
+            Err(_) => {}
+        }
+    }
+}
+
+/// The scenario, the report, and the manifest that vouches for all.
+fn vouched(run: &JudgedRun, scenario: &Scenario, folder: &RunFolder, started: SystemTime) -> Result<(), OutputError> {
     folder.write("scenario.toml", &scenario.resolved)?;
     let report = run.report.to_json();
     folder.write(REPORT, &report)?;
-    // The last one, for it vouches for the others.
     let manifest = Manifest {
         report_xxh3_64: Some(hash_bytes(report.as_bytes())),
         steps_xxh3_64: hash_file(&folder.staging().join(STEP_LOG)).xxh3_64,
         left: left(folder.staging()),
         ..manifest(run, scenario, started)
     };
-    folder.write("manifest.json", &manifest.to_json())?;
-    Ok(lost)
+    folder.write("manifest.json", &manifest.to_json())
 }
 
-/// What can only be written after a whole run. Returns what could not be written.
-fn recordings(left: &Left, scenario: &Scenario, folder: &Path) -> Vec<String> {
+/// What can only be written after a whole run.
+fn recordings(left: &Left, scenario: &Scenario, room: &mut Room<'_>) {
     match (left, &scenario.work) {
-        (Left::Arm(left), Work::Arm(experiment)) => of_arm(left, experiment, scenario.recording, folder),
-        (Left::Planar(left), Work::Planar(run)) => planar_files::write(left, run, scenario.recording, folder),
-        _ => vec!["what was run is not what the scenario asks for".to_owned()],
+        (Left::Arm(left), Work::Arm(experiment)) => of_arm(left, experiment, scenario.recording, room),
+        (Left::Planar(left), Work::Planar(run)) => planar_files::write(left, run, scenario.recording, room),
+        _ => room.failures.push("what was run is not what the scenario asks for".to_owned()),
     }
 }
 
-fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, folder: &Path) -> Vec<String> {
-    let mut failures = Vec::new();
-    if plan.demonstrations {
-        failures.extend(left.dataset.write(&folder.join(DEMONSTRATIONS)).err().map(|error| error.to_string()));
+/// The archive first, what is drawn from it last.
+fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, room: &mut Room<'_>) {
+    fn text<T, E: ToString>(result: Result<T, E>) -> Result<(), String> {
+        result.map(|_| ()).map_err(|error| error.to_string())
     }
-    let skill = left.skill.to_json().map_err(|error| error.to_string());
-    let written = skill.and_then(|text| write_file(&folder.join(SKILL), &text).map_err(|error| error.to_string()));
-    failures.extend(written.err());
     if plan.steps {
-        failures.extend(recording::write_step_log(&folder.join(STEP_LOG), left).err().map(|error| error.to_string()));
-        failures.extend(beside(left, &folder.join(BESIDE)).err());
+        room.put(STEP_LOG, |place| text(recording::write_step_log(place, left)));
     }
-    match figure_files::arm_run(experiment, left).and_then(|run| figure_files::of_arm(&run)) {
-        Ok(figures) => failures.extend(figure_files::draw(&figures, &folder.join("figures"))),
-        Err(error) => failures.push(format!("figures: {error}")),
+    room.put(SKILL, |place| left.skill.to_json().map_err(|error| error.to_string()).and_then(|json| text(write_file(place, &json))));
+    if plan.demonstrations {
+        room.put(DEMONSTRATIONS, |place| text(left.dataset.write(place)));
     }
     if plan.hash_every_steps > 0 {
-        failures.extend(recording::write_state_log(&folder.join(STATE_LOG), &left.traces).err().map(|error| error.to_string()));
+        room.put(STATE_LOG, |place| text(recording::write_state_log(place, &left.traces)));
     }
     if !left.snapshots.all.is_empty() {
-        let bytes = left.snapshots.to_bytes().map_err(|error| error.to_string());
-        failures.extend(bytes.and_then(|bytes| write_file(&folder.join(SNAPSHOTS), bytes).map_err(|error| error.to_string())).err());
+        room.put(SNAPSHOTS, |place| {
+            left.snapshots.to_bytes().map_err(|error| error.to_string()).and_then(|bytes| text(write_file(place, bytes)))
+        });
+    }
+    if plan.steps && !left.beside.is_empty() {
+        room.put(BESIDE, |place| beside(left, place));
+    }
+    let figures = figure_files::arm_run(experiment, left).and_then(|run| figure_files::of_arm(&run));
+    match figures {
+        Ok(figures) => room.put("figures", |place| figure_files::drawn(&figures, place)),
+        Err(error) => room.failures.push(format!("figures: {error}")),
     }
     #[cfg(feature = "rerun")]
     if plan.rrd {
-        failures.extend(recording::write_recording(&folder.join("recording.rrd"), experiment, left).err().map(|error| error.to_string()));
+        room.put("recording.rrd", |place| text(recording::write_recording(place, experiment, left)));
     }
-    failures
 }
 
 /// The steps of every execution beside the run, in a file of its own each.
 fn beside(left: &RunOutcome, folder: &Path) -> Result<(), String> {
-    if !left.beside.is_empty() {
-        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     left.beside.iter().try_for_each(|one| {
         let place = folder.join(format!("{}.parquet", one.name));
         recording::write_step_log(&place, &one.outcome).map_err(|error| error.to_string())

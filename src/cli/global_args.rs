@@ -23,8 +23,8 @@ pub(super) struct Global {
     /// Only warn of keys that a scenario or settings of learning cannot have, and leave them aside
     #[arg(long, global = true, env = "CPDMP_LENIENT")]
     pub lenient: bool,
-    /// Refuse a scenario or robot that would be warned of (exit code 3), and let a run that warns of something be one that is not as
-    /// expected (10): for run, check, validate and sweep
+    /// Refuse a scenario that would be warned of, before a sweep and for validate also its robot and dataset (exit code 3), and let a run
+    /// that warns of something be one that is not as expected (10): for run, check, validate and sweep
     #[arg(long, global = true, env = "CPDMP_DENY_WARNINGS", conflicts_with = "lenient")]
     pub deny_warnings: bool,
     /// Write the run to this folder (for several scenarios: to folders in it) instead of runs/<scenario>-<seed>; the skill or the

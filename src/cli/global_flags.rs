@@ -60,6 +60,11 @@ pub(super) fn without_effect(matches: &ArgMatches) -> Vec<String> {
     useless.map(told).collect()
 }
 
+/// Whether a command is called so.
+pub(super) fn is_command(word: &str) -> bool {
+    TAKEN.iter().any(|(command, _)| *command == word)
+}
+
 fn is_taken(taken: &[&str], flag: &str) -> bool {
     taken.contains(&flag) || ANYWHERE.contains(&flag)
 }

@@ -10,9 +10,10 @@ use serde_json::Value;
 use super::args::Format;
 use super::failure::Failure;
 use super::learn::read_skill;
+use super::recorded_run::RecordedManifest;
 use super::terminal::Terminal;
 use crate::demonstration::Dataset;
-use crate::report::{DataSection, Outcome, RobotSection, RunSection, SkillSection};
+use crate::report::{DataSection, Outcome, RobotSection, RunSection, SkillSection, read_regular};
 use crate::robot::{self, LoadOptions};
 
 /// What was found; `kind` says which of the sections is there.
@@ -99,12 +100,15 @@ fn run(folder: &Path) -> Result<Content, Failure> {
     let read = |name: &str| -> Result<Value, Failure> {
         let path = folder.join(name);
         let invalid = |error: String| Failure::new(Outcome::InvalidInput, [format!("{}: {error}", path.display())]);
-        let text = std::fs::read_to_string(&path).map_err(|error| invalid(error.to_string()))?;
-        serde_json::from_str(&text).map_err(|error| invalid(error.to_string()))
+        let bytes = read_regular(&path).map_err(|error| invalid(error.to_string()))?;
+        serde_json::from_slice(&bytes).map_err(|error| invalid(error.to_string()))
     };
     let (manifest, report) = (read("manifest.json")?, read("report.json")?);
-    let run = RunSection::of(folder, &manifest, &report);
-    run.map(|run| Content::Run { run }).map_err(|what| Failure::new(Outcome::InvalidInput, [format!("{}: {what}", folder.display())]))
+    let invalid = |what| Failure::new(Outcome::InvalidInput, [what]);
+    let run = RunSection::of(folder, &manifest, &report).map_err(|what| invalid(format!("{}: {what}", folder.display())))?;
+    // A manifest of a newer program may say something else by the same words.
+    RecordedManifest::read(folder).map_err(invalid)?;
+    Ok(Content::Run { run })
 }
 
 fn text(path: &Path, content: &Content) -> String {

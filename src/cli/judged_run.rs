@@ -7,7 +7,7 @@ use crate::demonstration::DemonstrationError;
 use crate::learning::LearningError;
 use crate::planar::PlanarOutcome;
 use crate::report::{Outcome, RunReport};
-use crate::scenario::{PlanarRun, Scenario, Work};
+use crate::scenario::{Diagnostic, PlanarRun, Scenario, Work};
 use crate::simulation::{self, Experiment, Progress, RunOutcome, SimulationError};
 use crate::world::WorldError;
 
@@ -18,6 +18,8 @@ pub(super) struct JudgedRun {
     pub report: RunReport,
     /// What keeps it from being run, where it stands in the scenario; the report's error tells the same.
     pub refusal: Located,
+    /// What is odd about the robot's file; the report's warnings tell the same.
+    pub odd: Vec<Diagnostic>,
 }
 
 /// What a run left behind.
@@ -40,7 +42,7 @@ impl JudgedRun {
             [] => terminal.error(&format!("error: {}\n", self.report.error.as_deref().unwrap_or_default())),
             faults => {
                 terminal.faults(faults);
-                self.refusal.elsewhere.iter().for_each(|told| terminal.error(&format!("error: {told}\n")));
+                self.refusal.elsewhere.iter().for_each(|one| terminal.error(&format!("error: {}\n", one.told)));
             }
         }
     }
@@ -53,8 +55,11 @@ pub(super) fn judged_run(scenario: &Scenario, progress: &dyn Progress) -> Judged
         Work::Planar(planar) => plane(planar, scenario, progress),
     };
     run.report.locate(|key| scenario.places.get(key));
-    if run.left.is_some() {
-        run.report.warnings.extend(scenario.warnings.iter().map(ToString::to_string));
+    if let Some(left) = &run.left {
+        if let Left::Arm(left) = left {
+            run.odd = Located::default().with(&left.robot_warnings).faults;
+        }
+        run.report.warnings.extend(run.odd.iter().chain(&scenario.warnings).map(ToString::to_string));
     }
     run
 }
@@ -68,12 +73,13 @@ fn arm(experiment: &Experiment, scenario: &Scenario, progress: &dyn Progress) ->
                 report: RunReport::finished(experiment, &left, &criteria),
                 left: Some(Left::Arm(Box::new(left))),
                 refusal: Located::default(),
+                odd: Vec::new(),
             }
         }
         Err(SimulationError::CutShort { reason, mut left }) => {
             allow(&mut left.collisions, &scenario.allowed_contacts);
             let report = RunReport::cut_short(experiment, &left, outcome_of(&reason), &reason.to_string());
-            JudgedRun { report, left: Some(Left::Arm(left)), refusal: Located::default() }
+            JudgedRun { report, left: Some(Left::Arm(left)), refusal: Located::default(), odd: Vec::new() }
         }
         Err(error) => {
             let refusal = Located::of(&error, scenario);
@@ -91,7 +97,7 @@ fn plane(planar: &PlanarRun, scenario: &Scenario, progress: &dyn Progress) -> Ju
             let criteria = judge_planar(&left, &scenario.criteria);
             let wall_s = progress.elapsed_s() - started_s;
             let report = RunReport::of_planar(&planar.name, planar.seed, &left, &criteria, wall_s);
-            JudgedRun { report, left: Some(Left::Planar(Box::new(left))), refusal: Located::default() }
+            JudgedRun { report, left: Some(Left::Planar(Box::new(left))), refusal: Located::default(), odd: Vec::new() }
         }
         Err(error) => failed(scenario, of_learning(&error), &error.to_string()),
     }
@@ -102,6 +108,7 @@ fn failed(scenario: &Scenario, outcome: Outcome, error: &str) -> JudgedRun {
         left: None,
         report: RunReport::failed(scenario.work.name(), scenario.work.seed(), outcome, error),
         refusal: Located::default(),
+        odd: Vec::new(),
     }
 }
 

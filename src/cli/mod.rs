@@ -39,6 +39,7 @@ mod recorded_run;
 mod repetition;
 mod replay;
 mod replay_report;
+mod room;
 mod run;
 mod schema;
 mod select;
@@ -76,7 +77,7 @@ pub fn main() -> ExitCode {
         Err(error) => told_by_clap(&error),
     });
     if let Ok(Outcome::Usage) = outcome {
-        check::withdraw_verdict(std::env::args_os());
+        check::withdraw_verdict(std::env::args_os().skip(1));
     }
     ExitCode::from(outcome.unwrap_or(Outcome::InternalError).exit_code())
 }

@@ -1,9 +1,8 @@
 //! The files of a planar experiment: demonstrations, paths, figures.
 
-use std::path::Path;
-
-use super::figure_files::draw;
-use super::files::STATE_LOG;
+use super::figure_files::drawn;
+use super::files::{DEMONSTRATIONS, SKILL, STATE_LOG};
+use super::room::Room;
 use crate::check::planar_traces;
 use crate::figure::{Figure, planar_forcing, planar_paths, transitions};
 use crate::planar::{Guidance, LearnedSkill, Method, Movement, PlanarOutcome, Transitions};
@@ -13,42 +12,41 @@ use crate::recording::{LoggedPath, write_path_log, write_state_log};
 use crate::report::write_file;
 use crate::scenario::{PlanarRun, RecordingPlan};
 
-/// Writes everything into the folder. Returns what could not be written.
-pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, folder: &Path) -> Vec<String> {
-    let mut failures = Vec::new();
-    if plan.demonstrations {
-        let written = run.dataset().map_err(|error| error.to_string());
-        let written = written.and_then(|dataset| dataset.write(&folder.join("demonstrations")).map_err(|error| error.to_string()));
-        failures.extend(written.err());
-    }
-    failures.extend(skills(left, folder));
+/// Writes everything: the archive first, what is drawn from it last.
+pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, room: &mut Room<'_>) {
     if plan.steps {
-        failures.extend(write_path_log(&folder.join("paths.parquet"), &paths(left)).err().map(|error| error.to_string()));
+        room.put("paths.parquet", |place| write_path_log(place, &paths(left)).map_err(|error| error.to_string()));
+    }
+    for (index, learned) in left.skills.iter().enumerate() {
+        room.put(&name_of_skill(index, learned), |place| {
+            let text = learned.skill.to_json().map_err(|error| error.to_string())?;
+            write_file(place, &text).map_err(|error| error.to_string())
+        });
+    }
+    if plan.demonstrations {
+        room.put(DEMONSTRATIONS, |place| {
+            let dataset = run.dataset().map_err(|error| error.to_string())?;
+            dataset.write(place).map_err(|error| error.to_string())
+        });
     }
     if plan.hash_every_steps > 0 {
         let traces = planar_traces(left, plan.hash_every_steps);
-        failures.extend(write_state_log(&folder.join(STATE_LOG), &traces).err().map(|error| error.to_string()));
+        room.put(STATE_LOG, |place| write_state_log(place, &traces).map_err(|error| error.to_string()));
     }
+    let figures = figures(left);
+    room.put("figures", |place| drawn(&figures, place));
     #[cfg(feature = "rerun")]
     if plan.rrd {
-        let written = write_planar_recording(&folder.join("recording.rrd"), &run.name, run.seed, left);
-        failures.extend(written.err().map(|error| error.to_string()));
+        room.put("recording.rrd", |place| write_planar_recording(place, &run.name, run.seed, left).map_err(|error| error.to_string()));
     }
-    failures.extend(draw(&figures(left), &folder.join("figures")));
-    failures
 }
 
-/// Every skill in a file of its own. `skill.json` is the one that is learned from `demonstrations/`.
-fn skills(left: &PlanarOutcome, folder: &Path) -> Vec<String> {
-    let write = |(index, learned): (usize, &LearnedSkill)| {
-        let name = match index {
-            0 => "skill.json".to_owned(),
-            _ => format!("skill_{}_{}.json", learned.method.key(), learned.guidance.key()),
-        };
-        let text = learned.skill.to_json().map_err(|error| error.to_string())?;
-        write_file(&folder.join(name), &text).map_err(|error| error.to_string())
-    };
-    left.skills.iter().enumerate().filter_map(|skill| write(skill).err()).collect()
+/// Every skill has a file of its own. `skill.json` is the one that is learned from `demonstrations/`.
+fn name_of_skill(index: usize, learned: &LearnedSkill) -> String {
+    match index {
+        0 => SKILL.to_owned(),
+        _ => format!("skill_{}_{}.json", learned.method.key(), learned.guidance.key()),
+    }
 }
 
 /// Every path: demonstrations first, then every movement of every setting.

@@ -39,7 +39,9 @@ impl RecordedManifest {
         if manifest["format"] != "cpdmp-run" {
             return Err(format!("{} is not the folder of a run", folder.display()));
         }
-        if let Some(version) = manifest["schema_version"].as_u64().filter(|version| *version > u64::from(MANIFEST_VERSION)) {
+        let version = &manifest["schema_version"];
+        let is_known = version.is_null() || version.as_u64().is_some_and(|version| version <= u64::from(MANIFEST_VERSION));
+        if !is_known {
             let place = place.display();
             return Err(format!("{place} is of version {version}, and this program reads version {MANIFEST_VERSION}: use a newer cpdmp"));
         }

@@ -73,10 +73,14 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
         }
         return run.report.outcome;
     }
-    #[cfg(feature = "rerun")]
-    grown.settle(run.left.is_some());
     let warnings = run.report.warnings.clone();
-    let written = files::write(&mut run, &ready.scenario, &folder, started).and_then(|lost| Ok((folder.finish()?, lost)));
+    #[cfg(feature = "rerun")]
+    let lost = files::write(&mut run, &ready.scenario, &folder, started, &|| grown.spare());
+    #[cfg(not(feature = "rerun"))]
+    let lost = files::write(&mut run, &ready.scenario, &folder, started, &|| {});
+    #[cfg(feature = "rerun")]
+    grown.settle();
+    let written = lost.and_then(|lost| Ok((folder.finish()?, lost)));
     drop(progress);
     match terminal.format {
         Format::Human => terminal.result(&text(&run.report)),

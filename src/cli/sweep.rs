@@ -64,7 +64,7 @@ fn checked(arguments: &SweepArguments, global: &Global, terminal: &Terminal) -> 
             terminal.note(&format!("checking {many} members of {path}\n"));
             let ready = |scenario: &Scenario| match beyond_the_file(scenario) {
                 Err((_, located)) => Err(located.text()),
-                Ok(warnings) if global.deny_warnings && !warnings.is_empty() => Err(format!("--deny-warnings: {}", warnings.join("\n"))),
+                Ok(odd) if global.deny_warnings && !odd.lines().is_empty() => Err(format!("--deny-warnings: {}", odd.lines().join("\n"))),
                 Ok(_) => Ok(()),
             };
             let terms = Terms { limit: global.timeout, deny_warnings: global.deny_warnings };

@@ -8,6 +8,7 @@ use super::args::{Format, Global, Teach};
 use super::failure::Failure;
 use super::judged_run::outcome_of;
 use super::load::load_all;
+use super::located::Located;
 use super::progress::Shown;
 use super::terminal::Terminal;
 use crate::demonstration::Dataset;
@@ -44,7 +45,8 @@ fn taught(arguments: &Teach, global: &Global, terminal: &Terminal) -> Result<Out
         Ok(ready) => ready,
         Err(outcome) => return Ok(outcome),
     };
-    let Some(Work::Arm(experiment)) = ready.pop().map(|ready| ready.scenario.work) else {
+    let scenario = ready.pop().map(|ready| ready.scenario);
+    let Some((scenario, Work::Arm(experiment))) = scenario.as_ref().map(|scenario| (scenario, &scenario.work)) else {
         let message = format!("{}: nobody teaches an arm in a [planar] experiment", arguments.scenario.display());
         return Err(Failure::new(Outcome::InvalidInput, [message]));
     };
@@ -53,8 +55,12 @@ fn taught(arguments: &Teach, global: &Global, terminal: &Terminal) -> Result<Out
         return Err(Failure::new(Outcome::InvalidInput, [message]));
     }
     let progress = Shown::new(terminal, global.timeout);
-    let (dataset, warnings) = lessons(&experiment, &progress).map_err(|error| Failure::new(outcome_of(&error), [error.to_string()]))?;
+    let taught = lessons(experiment, &progress);
     drop(progress);
+    let (dataset, warnings) = taught.map_err(|error| {
+        let Located { faults, elsewhere } = Located::of(&error, scenario);
+        Failure::new(outcome_of(&error), elsewhere.into_iter().map(|one| one.told)).because(faults)
+    })?;
     warnings.iter().for_each(|warning| terminal.note(&format!("warning: {warning}\n")));
     dataset.write(&out).map_err(|error| Failure::new(Outcome::OutputFailed, [error.to_string()]))?;
     let demonstrations = dataset.demonstrations.len();
@@ -91,7 +97,7 @@ fn free_folder(out: Option<&Path>) -> Result<PathBuf, Failure> {
 
 /// The lessons, and what is odd about them.
 fn lessons(experiment: &Experiment, progress: &Shown) -> Result<(Dataset, Vec<String>), SimulationError> {
-    let setup = Setup::new(experiment)?;
+    let setup = Setup::unchecked(experiment)?;
     setup.preflight(progress)?;
     let (dataset, history) = demonstrate(&setup, progress)?;
     Ok((dataset, history.warnings()))

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::args::{Format, Global};
 use super::judged_run::{of_learning, outcome_of};
 use super::load::options;
-use super::located::Located;
+use super::located::{Elsewhere, Located};
 use super::select::select;
 use super::terminal::Terminal;
 use crate::learning::LearningError;
@@ -22,21 +22,28 @@ struct Checked<'a> {
     outcome: Outcome,
     exit_code: u8,
     scenario: Option<String>,
-    /// Faults and warnings of the scenario file, and faults of the robot's.
+    /// Faults and warnings of the scenario file and of the robot's.
     diagnostics: Vec<Diagnostic>,
     /// Why the robot or the dataset cannot be used, where no place in a file can be told.
     error: Option<String>,
-    /// What is odd about the robot's file, and what a recorded dataset does not show.
+    /// What a recorded dataset does not show.
     warnings: Vec<String>,
 }
 
 impl Checked<'_> {
-    /// What is odd about the robot's file makes it one that cannot be used.
+    /// What is odd about the robot's file or the dataset makes it one that cannot be used.
     fn deny_warnings(&mut self) {
-        if self.outcome == Outcome::Passed && !self.warnings.is_empty() {
+        let odd = self.diagnostics.iter_mut().filter(|found| found.severity == Severity::Warning);
+        let mut denied = !self.warnings.is_empty();
+        for found in odd {
+            found.severity = Severity::Error;
+            denied = true;
+        }
+        if self.outcome == Outcome::Passed && denied {
             self.outcome = Outcome::InvalidInput;
             self.exit_code = self.outcome.exit_code();
-            self.error = Some(format!("--deny-warnings: {}", std::mem::take(&mut self.warnings).join("\n")));
+            let of_data = std::mem::take(&mut self.warnings);
+            self.error = (!of_data.is_empty()).then(|| format!("--deny-warnings: {}", of_data.join("\n")));
         }
     }
 }
@@ -79,9 +86,13 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
             checked.scenario = Some(scenario.work.name().to_owned());
             checked.diagnostics = scenario.warnings;
             match found {
-                Ok(warnings) => checked.warnings = warnings,
+                Ok(Odd { robot, dataset }) => {
+                    checked.diagnostics.extend(robot);
+                    checked.warnings = dataset;
+                }
                 Err((_, Located { faults, elsewhere })) => {
                     checked.diagnostics.splice(0..0, faults);
+                    let elsewhere: Vec<String> = elsewhere.into_iter().map(|one| one.told).collect();
                     checked.error = (!elsewhere.is_empty()).then(|| elsewhere.join("\n"));
                 }
             }
@@ -90,19 +101,34 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
     checked
 }
 
-/// Loads the robot and the dataset that the scenario names and looks whether the arm can go its way; what is odd
-/// about the robot, and what the dataset does not show.
-pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Vec<String>, (Outcome, Located)> {
+/// What is odd about a scenario that can be used.
+pub(super) struct Odd {
+    /// In the robot's file.
+    pub robot: Vec<Diagnostic>,
+    /// What a recorded dataset does not show.
+    pub dataset: Vec<String>,
+}
+
+impl Odd {
+    /// All of it, one line each.
+    pub fn lines(&self) -> Vec<String> {
+        self.robot.iter().map(ToString::to_string).chain(self.dataset.iter().cloned()).collect()
+    }
+}
+
+/// Loads the robot and the dataset that the scenario names and looks whether the arm can go its way.
+pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Odd, (Outcome, Located)> {
     match &scenario.work {
         Work::Planar(planar) => {
-            let elsewhere = |error: &LearningError| Located { faults: Vec::new(), elsewhere: vec![error.to_string()] };
-            planar.check().map(|()| Vec::new()).map_err(|error| (of_learning(&error), elsewhere(&error)))
+            let elsewhere = |error: &LearningError| Located { faults: Vec::new(), elsewhere: vec![Elsewhere::new(error.to_string())] };
+            let odd = Odd { robot: Vec::new(), dataset: Vec::new() };
+            planar.check().map(|()| odd).map_err(|error| (of_learning(&error), elsewhere(&error)))
         }
         Work::Arm(experiment) => {
             let located = |error: &SimulationError| (outcome_of(error), Located::of(error, scenario));
-            let setup = Setup::new(experiment).map_err(|error| located(&error))?;
+            let setup = Setup::unchecked(experiment).map_err(|error| located(&error))?;
             match setup.preflight(&Silent) {
-                Ok(of_dataset) => Ok(setup.warnings.iter().map(ToString::to_string).chain(of_dataset).collect()),
+                Ok(dataset) => Ok(Odd { robot: Located::default().with(&setup.warnings).faults, dataset }),
                 Err(error) => {
                     let (outcome, located) = located(&error);
                     Err((outcome, located.with(&setup.warnings)))

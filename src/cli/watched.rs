@@ -47,9 +47,15 @@ impl<'a> Watched<'a> {
 pub(super) struct Grown(PathBuf);
 
 impl Grown {
-    /// Makes it the recording of a run that has left no other; otherwise it has done its work.
-    pub fn settle(self, left: bool) {
+    /// Gives its room to what a run leaves.
+    pub fn spare(&self) {
+        _ = fs::remove_file(&self.0);
+    }
+
+    /// Makes it the recording of a run that has left no other; otherwise it has done its work. Until then there is one at every moment.
+    pub fn settle(self) {
         let whole = self.0.with_file_name("recording.rrd");
+        let left = whole.exists() || !self.0.exists();
         // Nothing is lost with a file that cannot be removed or renamed, and one without its end can be looked at all the same.
         _ = if left || close_recording(&self.0, &whole).is_ok() { fs::remove_file(&self.0) } else { fs::rename(&self.0, whole) };
     }

@@ -57,6 +57,7 @@ mod list_schema;
 mod notes;
 mod parameter_source;
 mod parquet;
+mod parquet_pages;
 mod read;
 mod resample;
 mod roles;

@@ -15,7 +15,7 @@ use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::{ColumnDescriptor, Type};
 
 use super::table::{Column, MOST_CELLS, Table};
-use super::{DemonstrationError, Fault, Trajectory};
+use super::{DemonstrationError, Fault, Trajectory, parquet_pages};
 
 /// Records read at a time.
 const CHUNK: usize = 1 << 14;
@@ -28,7 +28,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, place: &str) -> Result<Table, Demo
         return invalid("no Parquet file, or one that was cut short".to_owned());
     }
     // The library is not free of panics on damaged files; nothing it leaves behind is used afterwards.
-    match catch_unwind(AssertUnwindSafe(|| columns(path))) {
+    match catch_unwind(AssertUnwindSafe(|| columns(bytes, path))) {
         Ok(Ok(columns)) => {
             let samples = columns.first().map_or(0, |column| column.values.len());
             if columns.iter().any(|column| column.values.len() != samples) {
@@ -41,7 +41,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, place: &str) -> Result<Table, Demo
             Err(DemonstrationError::Invalid(vec![Fault::new(
                 place,
                 format!("{packed} ({error})"),
-                "snappy, zstd, lz4, gzip or no packing",
+                "snappy, zstd, lz4 (raw) or no packing: a gzip page does not say how large it is",
             )]))
         }
         Ok(Err(error)) => invalid(format!("a damaged file ({error})")),
@@ -49,8 +49,9 @@ pub(super) fn read(bytes: &[u8], path: &Path, place: &str) -> Result<Table, Demo
     }
 }
 
-fn columns(path: &Path) -> Result<Vec<Column>, ParquetError> {
+fn columns(bytes: &[u8], path: &Path) -> Result<Vec<Column>, ParquetError> {
     let reader = SerializedFileReader::new(File::open(path)?)?;
+    parquet_pages::check(bytes, reader.metadata())?;
     let schema = reader.metadata().file_metadata().schema_descr_ptr();
     let rows = usize::try_from(reader.metadata().file_metadata().num_rows()).unwrap_or(usize::MAX);
     if rows.saturating_mul(schema.num_columns()) > MOST_CELLS {
@@ -173,7 +174,7 @@ mod tests {
         }
         group.close().expect("closed");
         writer.close().expect("closed");
-        let read = columns(&path).expect("read");
+        let read = columns(&std::fs::read(&path).expect("read"), &path).expect("read");
         assert_eq!(read[0].values, [7.0, -150.0]);
         assert_eq!(read[1].values, [0.07, -1.5]);
     }

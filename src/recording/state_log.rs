@@ -44,7 +44,12 @@ pub fn write_state_log(path: &Path, traces: &[WorldTrace]) -> Result<(), Recordi
 /// # Errors
 /// When the file is not there or damaged.
 pub fn read_state_log(path: &Path) -> Result<Vec<WorldTrace>, RecordingError> {
-    let file = File::open(path).map_err(|source| RecordingError::Io { path: path.to_owned(), source })?;
+    let io = |source| RecordingError::Io { path: path.to_owned(), source };
+    // Opening a pipe could wait for ever.
+    if !std::fs::metadata(path).map_err(io)?.is_file() {
+        return Err(io(std::io::Error::other("it is no regular file")));
+    }
+    let file = File::open(path).map_err(io)?;
     // The library is not free of panics on damaged files; nothing that it leaves behind is used afterwards.
     let read = catch_unwind(AssertUnwindSafe(|| read(file)));
     let read = read.unwrap_or_else(|_| Err(ParquetError::General("a damaged file".to_owned())));

@@ -15,7 +15,12 @@ use crate::simulation::{AppliedForce, StepRecord};
 /// # Errors
 /// When the file cannot be read, is not a step log, is one of a later version, or lacks a column.
 pub fn read_step_log(path: &Path) -> Result<Vec<StepRecord>, RecordingError> {
-    let file = File::open(path).map_err(|source| RecordingError::Io { path: path.to_owned(), source })?;
+    let io = |source| RecordingError::Io { path: path.to_owned(), source };
+    // Opening a pipe could wait for ever.
+    if !std::fs::metadata(path).map_err(io)?.is_file() {
+        return Err(io(std::io::Error::other("it is no regular file")));
+    }
+    let file = File::open(path).map_err(io)?;
     let table = StepTable::read(file).map_err(|source| RecordingError::Parquet { path: path.to_owned(), source })?;
     let fault = |message: String| RecordingError::StepLog { path: path.to_owned(), message };
     if table.keys.get("cpdmp.format").map(String::as_str) != Some("step-log") {

@@ -92,8 +92,15 @@ impl Checked {
     /// What is odd about the input and the run.
     pub(super) fn warnings(&self) -> Vec<String> {
         let of_input = self.faults.iter().filter(|fault| fault.warning).map(InputFault::line);
-        let of_run = self.report.iter().flat_map(|report| report.warnings()).map(|warning| format!("{}: warning: {warning}", self.path));
+        let of_run = self.run_warnings().map(|warning| format!("{}: warning: {warning}", self.path));
         of_input.chain(of_run).collect()
+    }
+
+    /// What is odd about the run besides what is odd about its input.
+    pub(super) fn run_warnings(&self) -> impl Iterator<Item = &str> {
+        let of_input: Vec<String> = self.faults.iter().map(InputFault::line).collect();
+        let all = self.report.iter().flat_map(|report| report.warnings());
+        all.filter(move |warning| of_input.iter().all(|told| told != warning))
     }
 
     /// Why there are no answers, when there are none.

@@ -20,7 +20,7 @@ fn annotations(check: &Checked) -> Vec<String> {
         let place = fault.line.zip(fault.column);
         lines.push(command(kind, &properties(&fault.file, place, &fault.code), &fault.message));
     }
-    for warning in check.report.iter().flat_map(|report| report.warnings()) {
+    for warning in check.run_warnings() {
         lines.push(command("warning", &properties(&check.path, None, "warning"), warning));
     }
     if let Some(error) = check.report.as_ref().and_then(|report| report.error.as_ref()) {

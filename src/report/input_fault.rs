@@ -35,21 +35,26 @@ pub enum FileCode {
     Scene,
     /// The scene has no arm that could make the movement.
     Planar,
+    /// Recorded demonstrations cannot be used.
+    Dataset,
 }
 
 impl FileCode {
     /// Every code.
-    pub const ALL: [Self; 5] = [Self::Unreadable, Self::Edited, Self::Trajectory, Self::Scene, Self::Planar];
+    pub const ALL: [Self; 6] = [Self::Unreadable, Self::Edited, Self::Trajectory, Self::Scene, Self::Planar, Self::Dataset];
 
     /// Its name and its meaning in one sentence.
     #[must_use]
     pub fn describe(self) -> (&'static str, &'static str) {
         match self {
-            Self::Unreadable => ("unreadable", "a file of a stored run, or one with samples, cannot be opened or read"),
+            Self::Unreadable => ("unreadable", "a file that is needed cannot be opened or read"),
             Self::Edited => ("edited", "a file in the folder of a run is not as the run wrote it: it would be judged as what it is not"),
             Self::Trajectory => ("trajectory", "a movement cannot be judged: its columns, times or values, or it does not fit the robot"),
-            Self::Scene => ("scene", "the robot or the scene in which a movement is to be judged cannot be used"),
+            Self::Scene => {
+                ("scene", "what the scenario asks for is not possible with its robot or in its scene: a pose, a way, a place, a name")
+            }
             Self::Planar => ("planar", "a movement of an arm is to be judged in the scene of an experiment in the plane, which has no arm"),
+            Self::Dataset => ("dataset", "recorded demonstrations cannot be used: their columns, times or values"),
         }
     }
 }

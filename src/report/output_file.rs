@@ -38,6 +38,7 @@ const BEGINNING: u64 = 4096;
 /// # Errors
 /// When something else is there, or the folder cannot be made.
 pub fn prepare_file(path: &Path, replaceable: Replaceable) -> Result<(), OutputError> {
+    let path = &followed(path);
     if path.symlink_metadata().is_ok() && !is_replaceable(path, replaceable) {
         return Err(OutputError::NotOurs { path: path.to_path_buf(), what: replaceable.describe() });
     }
@@ -45,10 +46,11 @@ pub fn prepare_file(path: &Path, replaceable: Replaceable) -> Result<(), OutputE
     fs::create_dir_all(folder).map_err(OutputError::io(folder))
 }
 
-/// Where a file is written that is called `path`: where a link leads, if it is one.
+/// Where a file is written that is called `path`: where a link leads, if it is one, even to nothing.
 #[must_use]
 pub fn followed(path: &Path) -> PathBuf {
-    path.canonicalize().ok().filter(|_| path.is_symlink()).unwrap_or_else(|| path.to_path_buf())
+    let Ok(target) = fs::read_link(path) else { return path.to_path_buf() };
+    path.canonicalize().unwrap_or_else(|_| folder(path).join(target))
 }
 
 /// Writes a file beside its place and renames it, so that there is never half of it. A link is followed.

@@ -15,7 +15,7 @@ pub enum OutputError {
     #[error("{} is not the folder of a run and is not overwritten: choose another --out, or move it away", .0.display())]
     NotARun(PathBuf),
     /// The place of a file is taken by something that is not ours.
-    #[error("{} is not {what} and is not overwritten: choose another --out, or move it away", path.display())]
+    #[error("{} is not {what} and is not overwritten: name another file, or move it away", path.display())]
     NotOurs {
         /// The file.
         path: PathBuf,
@@ -80,6 +80,12 @@ impl RunFolder {
     /// The place where files are written for now.
     pub fn staging(&self) -> &Path {
         &self.staging
+    }
+
+    /// What was told of files while they were being written, with the place where they are looked for.
+    #[must_use]
+    pub fn in_place(&self, told: &str) -> String {
+        told.replace(&self.staging.display().to_string(), &self.target.display().to_string())
     }
 
     /// Writes one file of the run.

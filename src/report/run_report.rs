@@ -120,7 +120,6 @@ impl RunReport {
             steps,
             real_time_factor: sections::real_time_factor(experiment.physics.step_s, &outcome.phases),
             state_hash: Some(format!("{:016x}", outcome.state_hash)),
-            warnings: outcome.robot_warnings.iter().map(ToString::to_string).collect(),
             parameters: parameters.map(|(name, value)| ParameterReport { name: name.clone(), value: *value }).collect(),
             ..Self::empty(&experiment.name, experiment.seed, if as_expected { Outcome::Passed } else { Outcome::CriteriaNotMet })
         }
@@ -150,7 +149,7 @@ impl RunReport {
             clearance: sections::clearances(&outcome.clearances, &experiment.objects),
             parameters: parameters.map(|(name, value)| ParameterReport { name: name.clone(), value: *value }).collect(),
             steps: outcome.samples as u64,
-            warnings: outcome.robot_warnings.iter().map(ToString::to_string).chain(outcome.warnings.iter().cloned()).collect(),
+            warnings: outcome.warnings.clone(),
             ..Self::empty(&experiment.name, experiment.seed, if as_expected { Outcome::Passed } else { Outcome::CriteriaNotMet })
         }
     }

@@ -47,7 +47,7 @@ impl Diagnostic {
         code: Code,
         severity: Severity,
         file: &str,
-        (line, text): (Option<usize>, &str),
+        (line, text): (Option<usize>, &Arc<str>),
         message: String,
         help: Option<String>,
     ) -> Self {
@@ -60,8 +60,18 @@ impl Diagnostic {
         let indent = here.len() - here.trim_start().len();
         let span = (!here.is_empty()).then(|| start + indent..start + here.len());
         let column = line.map(|_| here[..indent].chars().count() + 1);
-        Self { code, severity, file: file.to_owned(), line, column, span, message, expected: None, help, text: Arc::from(text) }
+        Self { code, severity, file: file.to_owned(), line, column, span, message, expected: None, help, text: text.clone() }
     }
+}
+
+/// Those of many faults that are told, and how many there are besides; `of` makes a diagnostic of one.
+pub fn diagnose_some<T>(found: &[T], of: impl FnMut(&T) -> Diagnostic) -> Vec<Diagnostic> {
+    let mut told: Vec<Diagnostic> = found.iter().take(ENOUGH).map(of).collect();
+    if let Some(last) = told.last().cloned().filter(|_| found.len() > ENOUGH) {
+        let message = format!("and {} more", found.len() - ENOUGH);
+        told.push(Diagnostic { code: Code::More, message, help: None, line: None, column: None, span: None, ..last });
+    }
+    told
 }
 
 impl fmt::Display for Diagnostic {
@@ -155,7 +165,8 @@ mod tests {
 
     #[test]
     fn a_line_of_another_file_is_shown_without_its_indent() {
-        let told = |line, text| Diagnostic::at_line(Code::Robot, Severity::Error, "r.urdf", (line, text), "m".to_owned(), None);
+        let told =
+            |line, text: &str| Diagnostic::at_line(Code::Robot, Severity::Error, "r.urdf", (line, &Arc::from(text)), "m".to_owned(), None);
         let found = told(Some(2), "<a>\n  <bü/>\r\n</a>");
         assert_eq!((found.line, found.column, &found.text[found.span.clone().expect("a span")]), (Some(2), Some(3), "<bü/>"));
         for (line, text) in [(None, "<a/>"), (Some(9), "<a/>"), (Some(1), "")] {

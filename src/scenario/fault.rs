@@ -86,7 +86,7 @@ impl Code {
     /// Its name and its meaning in one sentence.
     pub fn describe(self) -> (&'static str, &'static str) {
         match self {
-            Self::Unreadable => ("unreadable", "a file that the scenario needs cannot be opened or read"),
+            Self::Unreadable => ("unreadable", "a file that is needed cannot be opened or read"),
             Self::Encoding => ("encoding", "the file is not UTF-8 text, holds a NUL character, or is too large"),
             Self::Syntax => ("syntax", "the text is not TOML"),
             Self::Version => ("version", "the file was written for another version of the program"),

@@ -59,7 +59,7 @@ mod words;
 mod work;
 
 pub use changes::changed_keys;
-pub use diagnostic::{Diagnostic, InvalidScenario};
+pub use diagnostic::{Diagnostic, InvalidScenario, diagnose_some};
 pub use fault::{Code, Severity};
 pub use json_schema::{learning_schema, scenario_schema};
 pub use learning_file::{LearningOptions, learning_settings};

@@ -38,16 +38,20 @@ impl Sweep {
     }
 }
 
-/// What keeps the `[[sweep]]` of a file from being run. Nothing in a file that has none. A flag may mend a file; one that tells a single run what
-/// otherwise varies does not make the file a bad one.
+/// What keeps the `[[sweep]]` of a file from being run. Nothing in a file that has none. A flag may mend a file; and one that makes a single run of it
+/// does not make the file a bad one: of what is wrong with flags, only that counts which is wrong without them too.
 pub(super) fn faults_of_file(path: &Path, options: &LoadOptions) -> Vec<Diagnostic> {
-    let load = |options: &LoadOptions| Sweep::load(path, options, &SweepOptions::default());
-    let flagged = load(&LoadOptions { deny_warnings: false, ..options.clone() });
-    match flagged.or_else(|_| load(&options.without_overrides())) {
+    let faults = |options: &LoadOptions| match Sweep::load(path, options, &SweepOptions::default()) {
         Ok(sweep) if sweep.axes.is_empty() => Vec::new(),
         Ok(sweep) => sweep.faults(),
         Err(invalid) => invalid.0,
+    };
+    let mut found = faults(&LoadOptions { deny_warnings: false, ..options.clone() });
+    if !found.is_empty() {
+        let without = faults(&options.without_overrides());
+        found.retain(|fault| without.contains(fault));
     }
+    found
 }
 
 /// Keys that two entries vary, or that something else decides.

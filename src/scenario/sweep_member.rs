@@ -3,7 +3,7 @@
 use super::diagnostic::InvalidScenario;
 use super::load::Scenario;
 use super::resolved::literal;
-use super::tree::{Node, Value};
+use super::tree::{Entry, Node, Value};
 
 /// One member of a sweep.
 #[derive(Clone, Debug)]
@@ -55,9 +55,28 @@ impl Setting {
     }
 }
 
-/// `KEY=VALUE` of a key that varies. A path is taken as it was filled in: it is seen from the current folder there, not from the file's.
+/// `KEY=VALUE` of a key that varies. Paths in it are taken as they were filled in: they are seen from the current folder there, not from the file's.
 pub(super) fn override_of(key: &str, typed: &Node, filled: &Node) -> String {
     let found = key.split('.').try_fold(filled, |node, step| node.step(step.trim()));
-    let node = found.filter(|node| node.as_text().is_some()).unwrap_or(typed);
-    format!("{}={}", key.trim(), literal(node))
+    let node = found.map_or_else(|| typed.clone(), |filled| with_texts_of(typed, filled));
+    format!("{}={}", key.trim(), literal(&node))
+}
+
+/// What was typed, with every text as it was filled in.
+fn with_texts_of(typed: &Node, filled: &Node) -> Node {
+    let value = match (&typed.value, &filled.value) {
+        (Value::Text(_), Value::Text(text)) => Value::Text(text.clone()),
+        (Value::Table(entries), _) => {
+            let entry = |entry: &Entry| {
+                let node = filled.get(&entry.key).map_or_else(|| entry.node.clone(), |filled| with_texts_of(&entry.node, filled));
+                Entry { node, ..entry.clone() }
+            };
+            Value::Table(entries.iter().map(entry).collect())
+        }
+        (Value::List(items), Value::List(others)) if items.len() == others.len() => {
+            Value::List(items.iter().zip(others).map(|(item, other)| with_texts_of(item, other)).collect())
+        }
+        (value, _) => value.clone(),
+    };
+    Node::new(value, typed.origin)
 }

@@ -114,6 +114,14 @@ impl SimulationError {
         Self::At { key: key.into(), error: Box::new(self) }
     }
 
+    /// The same, said of the part `key` of the scenario, if it is known.
+    pub(super) fn at_if(self, key: Option<String>) -> Self {
+        match key {
+            Some(key) => self.at(key),
+            None => self,
+        }
+    }
+
     /// All of them as one.
     ///
     /// # Errors
@@ -123,6 +131,14 @@ impl SimulationError {
             0 => Ok(()),
             1 => Err(errors.remove(0)),
             _ => Err(Self::Several(errors)),
+        }
+    }
+
+    /// The errors that it is made of.
+    pub(super) fn split(self) -> Vec<Self> {
+        match self {
+            Self::Several(errors) => errors.into_iter().flat_map(Self::split).collect(),
+            one => vec![one],
         }
     }
 

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use super::guide_path::GuidePath;
-use super::setup::{PoseName, Setup};
+use super::named_parts::check_parts;
+use super::reachable::MOVE;
+use super::setup::Setup;
 use super::space::{PLACE_COLUMNS, first_pose};
 use super::teaching::settings_of;
 use super::{DemonstrationSource, MotionSpace, Progress, SimulationError, TeachingPlan};
@@ -12,25 +14,31 @@ use crate::demonstration::{Dataset, Demonstration};
 use crate::learning::cpdmp::ForceCoupling;
 use crate::learning::{ShapingKind, wrench_columns};
 use crate::math;
-use crate::world::{ObjectKind, Parameters, World, WorldError};
+use crate::world::Parameters;
 
 impl Setup {
-    /// Checks everything that needs no simulation: postures are within the limits of the joints, the way of every lesson and of the execution
+    /// Checks everything that needs no simulation: what is named is there, postures are within the limits of the joints, the way of every lesson and of the execution
     /// can be gone, nothing starts inside something else or hangs in the air, handles are on their doors, a recorded dataset fits the
     /// experiment. Returns warnings about a dataset.
     ///
     /// # Errors
-    /// The postures that are wrong; every object that does not stand or has its handle beside its door; of every part of the way that cannot be
-    /// gone or does not begin apart the first lesson in which it is so.
+    /// The names and postures that are wrong; every object that does not stand or has its handle beside its door; every way-point that cannot be
+    /// reached and what does not begin apart, of the first lesson in which it is so.
     pub fn preflight(&self, progress: &dyn Progress) -> Result<Vec<String>, SimulationError> {
         let scene = match &self.experiment.demonstrations {
             DemonstrationSource::Teach(plan) => self.lessons_can_be_led(plan, progress).map(|()| Vec::new()),
             DemonstrationSource::Dataset(folder) => self.dataset_can_be_used(folder),
         };
-        match (self.postures_within_limits(), scene) {
-            (Err(postures), Err(scene)) => Err(SimulationError::Several(vec![postures, scene])),
-            (postures, scene) => postures.and(scene),
+        let before = [check_parts(&self.experiment, &self.robot), self.postures_within_limits()];
+        let mut faults: Vec<SimulationError> = before.into_iter().filter_map(Result::err).collect();
+        match scene {
+            Err(stopped @ SimulationError::StoppedBefore { .. }) if faults.is_empty() => return Err(stopped),
+            Err(SimulationError::StoppedBefore { .. }) => {}
+            Err(scene) => faults.push(scene),
+            Ok(warnings) if faults.is_empty() => return Ok(warnings),
+            Ok(_) => {}
         }
+        SimulationError::all(faults).map(|()| Vec::new())
     }
 
     /// Reads the dataset in `folder` for the experiment and looks whether its first demonstration begins well in its own setting; returns what is
@@ -111,77 +119,50 @@ impl Setup {
     fn lessons_can_be_led(&self, plan: &TeachingPlan, progress: &dyn Progress) -> Result<(), SimulationError> {
         let lessons = settings_of(plan, &self.experiment.parameters);
         let mut found: Vec<SimulationError> = Vec::new();
-        let mut note = |led: Result<(), SimulationError>| match led {
-            Err(stopped @ SimulationError::StoppedBefore { .. }) => Err(stopped),
-            Err(error) => {
-                let known = |key: &str| found.iter().flat_map(SimulationError::parts).any(|(other, _)| other == Some(key));
-                if !error.parts().iter().all(|(key, _)| key.is_some_and(known)) {
-                    found.push(error);
-                }
-                Ok(())
-            }
-            Ok(()) => Ok(()),
-        };
         for (number, parameters) in lessons.iter().enumerate() {
-            note(self.can_be_led(plan, parameters, (number as u64, &format!("lesson {}", number + 1)), progress))?;
+            let whose = format!("lesson {}", number + 1);
+            found = add_new(self.against_leading(plan, parameters, (number as u64, &whose), progress, found.is_empty())?, found);
         }
         let exact = TeachingPlan { position_spread_m: 0.0, timing_spread: 0.0, ..plan.clone() };
-        note(self.can_be_led(&exact, &self.experiment.parameters, (0, "a lesson in the setting of the execution"), progress))?;
+        let whose = "a lesson in the setting of the execution";
+        found = add_new(self.against_leading(&exact, &self.experiment.parameters, (0, whose), progress, found.is_empty())?, found);
         SimulationError::all(found)
     }
 
-    fn can_be_led(
+    /// What keeps a lesson from being led: what does not stand, what of the way is out of reach (up to its first pose that is, or `all` way-points),
+    /// what is inside something else at its start.
+    fn against_leading(
         &self,
         plan: &TeachingPlan,
         parameters: &Parameters,
         (number, whose): (u64, &str),
         progress: &dyn Progress,
-    ) -> Result<(), SimulationError> {
-        self.stands(parameters)?;
+        all: bool,
+    ) -> Result<Vec<SimulationError>, SimulationError> {
         let mut variation = math::stream(self.experiment.seed, "human", number);
         let path = GuidePath::new(plan, &self.experiment.objects, parameters, &mut variation);
-        let start = self.can_go(plan, &path, whose, progress)?;
-        self.starts_apart(self.world(parameters, &start, false), whose).map(|_| ())
-    }
-
-    /// A world in which nothing starts inside something else; `whose` start it is, the errors say.
-    pub(super) fn starts_apart(&self, built: Result<World, SimulationError>, whose: &str) -> Result<World, SimulationError> {
-        let Err(SimulationError::World(WorldError::Overlap(pairs))) = built else { return built };
-        let objects = &self.experiment.objects;
-        let object = |part: &str| objects.iter().find(|object| part.split('.').next() == Some(object.name.as_str()));
-        let told = pairs.into_iter().map(|pair| {
-            let culprit = object(&pair.a).or_else(|| object(&pair.b)).map(|object| format!("object.{}", object.name));
-            let error = SimulationError::Scene(format!("{whose}: {}", WorldError::Overlap(vec![pair])));
-            PoseName { what: String::new(), key: culprit }.told(error)
-        });
-        Err(SimulationError::Several(told.collect()))
-    }
-
-    /// Everything that can fall lies on a table: there is no floor. Handles are on their doors.
-    fn stands(&self, parameters: &Parameters) -> Result<(), SimulationError> {
-        let objects = &self.experiment.objects;
-        let beside_door = objects.iter().filter_map(|object| {
-            let ObjectKind::Cabinet(cabinet) = &object.kind else { return None };
-            let hinge_y = object.center(parameters).y;
-            let (distance, width) = (cabinet.handle_distance_m(hinge_y, parameters), cabinet.door_size_m.x);
-            let told = || {
-                let what = format!("the handle of `{}` is {distance:.3} m from the hinge, but its door is {width} m wide", object.name);
-                let told = format!("{what}: change `handle_lateral_m` or `door_size_m`");
-                SimulationError::Scene(told).at(format!("object.{}.handle_lateral_m", object.name))
-            };
-            (!cabinet.has_handle_on_door(hinge_y, parameters)).then(told)
-        });
-        let hanging = objects.iter().filter(|o| o.is_free() && !objects.iter().any(|table| table.carries(o, parameters)));
-        let falling = hanging.map(|object| {
-            let center = object.center(parameters);
-            let place = format!("[{:.3}, {:.3}] m", center.x, center.y);
-            let what = format!("object `{}` at {place} lies on no table and would fall for ever", object.name);
-            let told = format!("{what}: put it on a table, or give the table another size");
-            SimulationError::Scene(told).at(format!("object.{}", object.name))
-        });
-        SimulationError::all(beside_door.chain(falling).collect())
+        let stands = self.stands(parameters);
+        let (start, gone) = match self.can_go(plan, &path, whose, progress) {
+            Ok(start) => (Some(start), Vec::new()),
+            Err(stopped @ SimulationError::StoppedBefore { .. }) => return Err(stopped),
+            Err(first) => {
+                let others = if all { self.out_of_reach(plan, &path, whose, progress) } else { Vec::new() };
+                (self.posture(&path.at(0.0).pose, whose, MOVE).ok(), add_new(others, vec![first]))
+            }
+        };
+        // In a scene that does not stand, more would only be consequences.
+        let inside = if stands.is_ok() { self.overlap(parameters, start.as_deref(), whose) } else { None };
+        Ok(stands.err().into_iter().chain(gone).chain(inside).collect())
     }
 }
 
 /// What helps when the arm cannot be where recorded demonstrations begin.
 const RECORD_AGAIN: &str = "record them with this robot, or describe the one that they were recorded with";
+
+/// `known`, and those of `found` that say something of a part of the scenario of which it says nothing, or of none.
+fn add_new(found: Vec<SimulationError>, mut known: Vec<SimulationError>) -> Vec<SimulationError> {
+    let keys: Vec<String> = known.iter().flat_map(SimulationError::parts).filter_map(|(key, _)| key.map(str::to_owned)).collect();
+    let is_new = |error: &SimulationError| error.parts().iter().any(|(key, _)| key.is_none_or(|key| keys.iter().all(|known| known != key)));
+    known.extend(found.into_iter().flat_map(SimulationError::split).filter(is_new));
+    known
+}

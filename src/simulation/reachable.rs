@@ -43,6 +43,12 @@ impl Setup {
         Ok(start)
     }
 
+    /// Every way-point that the arm cannot reach, each asked for on its own.
+    pub(super) fn out_of_reach(&self, plan: &TeachingPlan, path: &GuidePath, whose: &str, progress: &dyn Progress) -> Vec<SimulationError> {
+        let asked = path.times_s().iter().take_while(|_| progress.may_go_on());
+        asked.filter_map(|&time_s| self.posture(&path.at(time_s).pose, place_name(plan, path, time_s, whose), MOVE).err()).collect()
+    }
+
     /// Solves the movement `plan` of a skill: the tool's place and orientation in task space, the joints in joint space.
     ///
     /// # Errors

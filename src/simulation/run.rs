@@ -20,7 +20,7 @@ use crate::learning::{self, Learned, Skill};
 /// # Errors
 /// When the robot, the demonstrations or a pose cannot be used, nothing can be learned, or the simulation diverges.
 pub fn run(experiment: &Experiment, progress: &dyn Progress) -> Result<RunOutcome, SimulationError> {
-    let setup = Setup::new(experiment)?;
+    let setup = Setup::unchecked(experiment)?;
     setup.preflight(progress)?;
     let (dataset, mut history) = demonstrate(&setup, progress)?;
     let started = progress.elapsed_s();

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use nalgebra::Isometry3;
 
-use super::{Experiment, NamedPart, RobotSettings, SimulationError};
+use super::named_parts::{arm, check_lengths, check_parts};
+use super::{Experiment, RobotSettings, SimulationError};
 use crate::control::{ArmModel, HoldPosture, PoseTracker, WrenchObserver};
 use crate::robot::baxter::{LEFT_HAND, LEFT_HOOK, LEFT_TOOL};
 use crate::robot::{self, Finding, IkOutcome, Joint, LoadOptions, Loaded, RobotModel};
@@ -21,45 +22,6 @@ pub struct Setup {
     pub warnings: Vec<Finding>,
     arm: ArmModel,
     idle: Option<ArmModel>,
-}
-
-/// Every list of joint values has one number per joint.
-fn check_lengths(settings: &RobotSettings, joints: usize, idle_joints: Option<usize>) -> Result<(), SimulationError> {
-    let impedance = &settings.impedance;
-    let lists = [
-        ("robot.rest_posture_rad", settings.rest_posture_rad.len(), &settings.tool_link, Some(joints)),
-        ("robot.impedance.stiffness_nm_per_rad", impedance.stiffness_nm_per_rad.len(), &settings.tool_link, Some(joints)),
-        ("robot.impedance.damping_nms_per_rad", impedance.damping_nms_per_rad.len(), &settings.tool_link, Some(joints)),
-        ("robot.idle_posture_rad", settings.idle_posture_rad.len(), &settings.idle_tool_link, idle_joints),
-        ("robot.impedance.stiffness_nm_per_rad", impedance.stiffness_nm_per_rad.len(), &settings.idle_tool_link, idle_joints),
-    ];
-    let wrong = lists.into_iter().filter_map(|(key, found, link, joints)| {
-        let joints = joints.filter(|joints| *joints != found)?;
-        let told = format!("{key} has {found} numbers, but the arm that ends in `{link}` has {joints} joints: give one number per joint");
-        Some(SimulationError::Scene(told).at(key))
-    });
-    SimulationError::all(wrong.collect())
-}
-
-/// Every part that criteria and allowed contacts name is a link of the robot, an object, or one of an object's parts, and no two are called the
-/// same.
-fn check_parts(experiment: &Experiment, robot: &RobotModel) -> Result<(), SimulationError> {
-    let links = || robot.frames.iter().map(|frame| frame.name.as_str());
-    let is_object = |name: &str| experiment.objects.iter().any(|object| name.split('.').next() == Some(object.name.as_str()));
-    let unknown = experiment.named_parts.iter().filter(|part| !is_object(&part.name) && !links().any(|link| link == part.name));
-    let told = unknown.map(|NamedPart { key, name }| {
-        let near = robot::nearest_name(name, links().chain(experiment.objects.iter().map(|object| object.name.as_str())));
-        let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-        SimulationError::Scene(format!("the robot has no link `{name}`, and the scene no object of that name{help}")).at(key)
-    });
-    let twins = experiment.objects.iter().filter(|object| links().any(|link| link == object.name)).map(|object| {
-        let told = format!(
-            "object `{0}`: a link of the robot is called `{0}` too, and what is said of one would hold for both: name it otherwise",
-            object.name
-        );
-        SimulationError::Scene(told).at(format!("object.{}", object.name))
-    });
-    SimulationError::all(told.chain(twins).collect())
 }
 
 /// The built-in robot with the tool that the experiment names.
@@ -101,10 +63,7 @@ impl From<&str> for PoseName {
 impl PoseName {
     /// The error, said of the part of the scenario that asks for the pose.
     pub(super) fn told(self, error: SimulationError) -> SimulationError {
-        match self.key {
-            Some(key) => error.at(key),
-            None => error,
-        }
+        error.at_if(self.key)
     }
 }
 
@@ -130,24 +89,36 @@ impl Setup {
     /// # Errors
     /// When the robot's file cannot be used or lacks the links that the experiment names.
     pub fn new(experiment: &Experiment) -> Result<Self, SimulationError> {
+        let setup = Self::unchecked(experiment)?;
+        check_parts(experiment, &setup.robot)?;
+        Ok(setup)
+    }
+
+    /// As [`Self::new`], for those who have the rest told by [`Self::preflight`], together with all else that can be known before the first step.
+    ///
+    /// # Errors
+    /// When the robot's file cannot be used or has no such arms.
+    pub fn unchecked(experiment: &Experiment) -> Result<Self, SimulationError> {
         let settings = &experiment.robot;
         let loaded = match &settings.urdf {
             None => built_in(settings),
             Some(path) => load(path, settings)?,
         };
-        let arm = ArmModel::new(&loaded.model, &settings.tool_link, &settings.rest_posture_rad, experiment.physics.gravity_m_per_s2)?;
-        let idle = match settings.idle_posture_rad.is_empty() {
-            true => None,
-            false => Some(ArmModel::new(
-                &loaded.model,
-                &settings.idle_tool_link,
-                &settings.idle_posture_rad,
-                experiment.physics.gravity_m_per_s2,
-            )?),
+        let model = loaded.model;
+        let working = arm(&model, ("tool_link", &settings.tool_link), &settings.rest_posture_rad, experiment);
+        let has_idle = !settings.idle_posture_rad.is_empty();
+        let idle = has_idle.then(|| arm(&model, ("idle_tool_link", &settings.idle_tool_link), &settings.idle_posture_rad, experiment));
+        let (arm, idle) = match (working, idle.transpose()) {
+            (Ok(working), Ok(idle)) => (working, idle),
+            (working, idle) => {
+                let faults = [working.err(), idle.err(), check_parts(experiment, &model).err()];
+                return Err(SimulationError::Several(faults.into_iter().flatten().collect()));
+            }
         };
-        let lengths = check_lengths(settings, arm.joints(), idle.as_ref().map(ArmModel::joints));
-        SimulationError::all([lengths, check_parts(experiment, &loaded.model)].into_iter().filter_map(Result::err).collect())?;
-        Ok(Self { experiment: experiment.clone(), robot: loaded.model, warnings: loaded.warnings, arm, idle })
+        if let Err(lengths) = check_lengths(settings, arm.joints(), idle.as_ref().map(ArmModel::joints)) {
+            return Err(SimulationError::Several([Some(lengths), check_parts(experiment, &model).err()].into_iter().flatten().collect()));
+        }
+        Ok(Self { experiment: experiment.clone(), robot: model, warnings: loaded.warnings, arm, idle })
     }
 
     /// The working arm's model.

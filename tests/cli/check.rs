@@ -123,6 +123,17 @@ fn a_check_without_a_verdict_leaves_no_green_file() {
     }
     assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
     assert!(!written().contains("<error"), "what stands there is replaced");
+    // Of a command line that is no check's nothing is withdrawn, of one that names two files both are.
+    assert_eq!(folder.call(&["list", "check", "--junit", "v.xml"]).code, Some(2));
+    assert!(!written().contains("<error"), "{}", written());
+    std::fs::copy(folder.path().join("v.xml"), folder.path().join("w.xml")).expect("copied");
+    assert_eq!(folder.call(&["check", "a.toml", "--junit", "w.xml", "--junit=v.xml"]).code, Some(2));
+    for file in ["v.xml", "w.xml"] {
+        let told = std::fs::read_to_string(folder.path().join(file)).expect("there");
+        assert!(told.contains("did not come to its end"), "{file}: {told}");
+    }
+    let said = folder.call(&["check", "a.toml", "--junit", "/dev/stdout"]);
+    assert!(said.code == Some(2) && said.stderr.contains("--format junit prints it"), "{}", said.stderr);
     // An empty file is free, and a link leads to what is read.
     std::fs::write(folder.path().join("v.xml"), "").expect("written");
     #[cfg(unix)]
@@ -131,4 +142,10 @@ fn a_check_without_a_verdict_leaves_no_green_file() {
     assert_eq!(folder.call(&["check", "absent/*.toml", "--junit", "link.xml"]).code, Some(5));
     #[cfg(unix)]
     assert!(written().contains("did not come to its end") && folder.path().join("link.xml").is_symlink(), "{}", written());
+    // A link to nothing is filled.
+    std::fs::remove_file(folder.path().join("v.xml")).expect("removed");
+    #[cfg(unix)]
+    assert_eq!(folder.call(&["check", "a.toml", "--junit", "link.xml"]).code, Some(0));
+    #[cfg(unix)]
+    assert!(written().contains("<testsuites") && folder.path().join("link.xml").is_symlink(), "{}", written());
 }

@@ -61,6 +61,31 @@ fn a_run_that_is_killed_leaves_a_recording_that_opens() {
     assert!(!folder.path().join("runs/good-0/recording.partial.rrd").exists());
 }
 
+/// Contract: from the first lesson to the end, whenever a kill comes, there is a recording: what grows goes when what is whole is there.
+#[test]
+fn there_is_a_recording_at_every_moment() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    let program = Command::new(env!("CARGO_BIN_EXE_cpdmp"))
+        .current_dir(folder.path())
+        .args(["run", "a.toml", "-q"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    let mut child = program.expect("it starts");
+    let places = [".good-0.partial/recording.partial.rrd", ".good-0.partial/recording.rrd", "good-0/recording.rrd"];
+    // In this order a file that is renamed in between is found in its later place.
+    let is_there = || places.iter().any(|place| folder.path().join("runs").join(place).exists());
+    let mut seen = 0;
+    while child.try_wait().expect("it is there").is_none() {
+        let there = is_there();
+        assert!(there || seen == 0, "no recording after it was seen {seen} times");
+        seen += u32::from(there);
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(seen > 10 && is_there(), "seen {seen} times");
+    assert!(!folder.path().join("runs/good-0/recording.partial.rrd").exists());
+}
+
 /// What was simulated before a run had to stop is to be seen, in a file with its footer.
 #[test]
 fn a_run_that_stops_early_leaves_what_it_has_recorded() {
@@ -84,7 +109,8 @@ fn a_recording_that_finds_no_room_is_named_and_the_rest_stays() {
         let said = Command::new("sh").args(["-c", &run]).current_dir(folder.path()).output().expect("it runs");
         let stderr = String::from_utf8_lossy(&said.stderr);
         assert_eq!(said.status.code(), Some(20), "{scenario}: {stderr}");
-        assert!(stderr.contains("error: not written: ") && stderr.contains("recording.rrd"), "{scenario}: {stderr}");
+        assert!(stderr.contains("error: not written: ") && stderr.contains("run/recording.rrd"), "{scenario}: {stderr}");
+        assert!(!stderr.contains(".partial"), "where it was to be, not where it was until then: {stderr}");
         let run = folder.path().join("run");
         assert!(!run.join("recording.rrd").exists());
         for kept in ["report.json", "scenario.toml", "manifest.json", steps] {

@@ -1,5 +1,6 @@
 //! The real binary, as a person or a CI job calls it.
 
+mod all_at_once;
 mod beside;
 mod changed_run;
 mod check;

@@ -64,10 +64,13 @@ fn what_cannot_fail_and_what_is_newer_is_told() {
     assert_eq!(folder.call(&["run", "a.toml", "--out", "run", "-q"]).code, Some(0));
     let manifest = folder.path().join("run/manifest.json");
     let text = fs::read_to_string(&manifest).expect("there");
-    fs::write(&manifest, text.replacen("\"schema_version\": 1", "\"schema_version\": 7", 1)).expect("written");
-    for command in ["check", "replay"] {
-        let said = folder.call(&[command, "run"]);
-        assert!(said.code == Some(3) && format!("{}{}", said.stdout, said.stderr).contains("version 7"), "{command}: {}", said.stderr);
+    for version in ["7", "\"7\"", "2.0"] {
+        fs::write(&manifest, text.replacen("\"schema_version\": 1", &format!("\"schema_version\": {version}"), 1)).expect("written");
+        for command in ["check", "replay", "inspect", "figures"] {
+            let said = folder.call(&[command, "run"]);
+            let told = format!("{}{}", said.stdout, said.stderr).contains(&format!("version {version}"));
+            assert!(said.code == Some(3) && told, "{command}: {}{}", said.stdout, said.stderr);
+        }
     }
 }
 
@@ -76,12 +79,20 @@ fn what_cannot_fail_and_what_is_newer_is_told() {
 #[test]
 fn pipes_in_the_folder_of_a_run_are_refused() {
     let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
-    for name in ["report.json", "manifest.json"] {
+    for (name, commands) in [
+        ("report.json", &["check", "inspect"][..]),
+        ("manifest.json", &["check", "replay", "inspect", "figures"]),
+        ("steps.parquet", &["check", "figures"]),
+        ("state_hashes.parquet", &["replay"]),
+    ] {
         assert_eq!(folder.call(&["run", "a.toml", "--out", "run", "-q"]).code, Some(0));
         let file = folder.path().join("run").join(name);
         fs::remove_file(&file).expect("removed");
         assert!(std::process::Command::new("mkfifo").arg(&file).status().is_ok_and(|made| made.success()));
-        assert_eq!(folder.call(&["check", "run"]).code, Some(3), "{name}");
+        for command in commands {
+            let said = folder.call(&[command, "run"]);
+            assert_eq!(said.code, Some(3), "{command} with {name}: {}", said.stderr);
+        }
         fs::remove_dir_all(folder.path().join("run")).expect("removed");
     }
 }
@@ -102,4 +113,18 @@ fn flags_mend_a_file_that_has_a_sweep() {
     assert_eq!(folder.call(&["validate", "a.toml"]).code, Some(3));
     let said = folder.call(&["validate", "a.toml", "--robot", "r.urdf"]);
     assert_eq!(said.code, Some(0), "{}", said.stderr);
+
+    // Flags that make a single run of it may mend it too; and what only they make wrong in other members is not the file's fault.
+    let seeds = format!("{GOOD}\n[robot]\nurdf = \"not_here.urdf\"\n\n[[sweep]]\nkind = \"grid\"\nkey = \"seed\"\nvalues = [1, 2]\n");
+    let rates = format!("{GOOD}\n[[sweep]]\nkind = \"grid\"\nkey = \"simulation.log_rate_hz\"\nvalues = [100.0, 1000.0]\n");
+    let files = [("seeds.toml", seeds.as_bytes()), ("rates.toml", rates.as_bytes()), ("r.urdf", ROBOT.as_bytes())];
+    let folder = Folder::with(&files);
+    for command in ["validate", "check"] {
+        let said = folder.call(&[command, "seeds.toml", "--robot", "r.urdf", "--seed", "5"]);
+        assert_eq!(said.code, Some(0), "{command}: {}", said.stderr);
+    }
+    let said = folder.call(&["validate", "rates.toml", "--set", "simulation.step_s=0.002"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    let said = folder.call(&["sweep", "rates.toml", "--set", "simulation.step_s=0.002", "--dry-run"]);
+    assert!(said.code == Some(3) && said.stderr.contains("more than the engine's steps"), "the sweep is another matter: {}", said.stderr);
 }

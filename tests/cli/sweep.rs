@@ -268,6 +268,22 @@ fn tables_vary_too() {
     let told: Vec<String> = rows.iter().map(|row| row[of("learning.motion")].to_string()).collect();
     assert_eq!(told, ["\"{ kmeans_starts = 0, states = 3 }\"", "\"{ states = 4 }\""]);
     assert!(rows[1][of("command")].to_string().contains("learning.motion={ states = 4 }"), "{:?}", rows[1]);
+
+    // A path in a table is seen from the file in the file, and from here in the command that repeats a member.
+    std::fs::create_dir(folder.path().join("sub")).expect("made");
+    let robots = "\n[[sweep]]\nkind = \"grid\"\nkey = \"robot\"\nvalues = [{ urdf = \"a.urdf\" }, { urdf = \"b.urdf\" }]\n";
+    std::fs::write(folder.path().join("sub/t.toml"), format!("{GOOD}{robots}")).expect("written");
+    for name in ["a", "b"] {
+        std::fs::write(folder.path().join("sub").join(format!("{name}.urdf")), include_str!("../../assets/baxter/baxter.urdf"))
+            .expect("written");
+    }
+    let said = folder.call(&["sweep", "sub/t.toml", "--out", "robots"]);
+    assert_eq!(said.code, Some(0), "{}", said.stderr);
+    let (columns, rows) = table(&folder.path().join("robots/sweep.parquet"));
+    let command = columns.iter().position(|column| column == "command").expect("a column");
+    for (row, name) in rows.iter().zip(["a", "b"]) {
+        assert!(row[command].to_string().contains(&format!("\"sub/{name}.urdf\"")), "{}", row[command]);
+    }
 }
 
 /// Contract: with `--deny-warnings` what `run` would refuse is refused of every member before the first run, and a run that warns of something is one

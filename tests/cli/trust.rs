@@ -101,6 +101,17 @@ fn runs_are_found_whatever_they_lost() {
     }
 }
 
+/// Contract: a run of which only its recording or its snapshots are left beside its scenario is not simulated as if it were one.
+#[test]
+fn what_is_left_of_a_run_is_no_scenario() {
+    let folder = Folder::with(&[("a.toml", GOOD.as_bytes())]);
+    assert_eq!(folder.call(&["run", "a.toml", "--out", "run", "-q"]).code, Some(0));
+    for lost in ["manifest.json", "report.json", "steps.parquet", "state_hashes.parquet", "skill.json"] {
+        fs::remove_file(folder.path().join("run").join(lost)).expect("removed");
+        assert_eq!(kinds(&folder, &["run"]), (Some(3), vec!["run".to_owned()]), "without {lost} and those before");
+    }
+}
+
 /// Contract: two checks do not write one verdict.
 #[test]
 fn a_verdict_that_another_check_writes_is_left_to_it() {
