@@ -12,7 +12,7 @@ use rerun::external::re_sdk_types::blueprint::archetypes::{Background, PlotLegen
 use super::blueprint_property::Properties;
 use super::planar_entity::{CURVE, DEMONSTRATED, GAUSSIANS, PHASE_INPUT};
 use super::planar_forcing::{AXES, recorded, situation};
-use super::planar_map::bounds;
+use super::planar_map::{bounds, with_numbers};
 use super::planar_recorder::ticks;
 use super::recorder::Fault;
 use super::{palette, planar_graph};
@@ -20,7 +20,7 @@ use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, named};
 
 /// The layout with the properties of its views.
 pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties), Fault> {
-    let mut views = Views { properties: Properties::default(), bounds: bounds(outcome), inputs: inputs(outcome) };
+    let mut views = Views { properties: Properties::default(), bounds: with_numbers(bounds(outcome)), inputs: inputs(outcome) };
     let mut maps: Vec<ContainerLike> = Vec::new();
     for guidance in outcome.guidances() {
         for method in outcome.methods_with(guidance) {
@@ -44,11 +44,11 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
     if let Some(transitions) = &outcome.transitions {
         let graph = GraphView::new("States and chains, the side not told").with_origin("/transitions");
         right.push(graph.with_visual_bounds(&VisualBounds2D::new(planar_graph::bounds(transitions))).into());
-        shares.push(0.65);
+        shares.push(0.75);
     }
     // A new reader reads first: what says how to is never behind something else.
     right.push(TextDocumentView::new("How to read").with_origin("/guide").into());
-    shares.push(1.15);
+    shares.push(1.1);
     let left = Grid::new(maps).with_grid_columns(columns as u32);
     let right = Vertical::new(right).with_row_shares(shares);
     let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.2, 1.0]))

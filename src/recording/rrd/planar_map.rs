@@ -133,16 +133,23 @@ fn whole([low, high]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
     low.ceil() as i64..=high.floor() as i64
 }
 
-/// Some of the whole metres within bounds (m), as numbers along the left and the lower edge.
+/// What is seen of a plane with these bounds (m): at the left and below there is room for numbers, which would lie on paths.
+pub(super) fn with_numbers([x, y]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let lower = |[low, high]: [f64; 2], share: f64| [low - share * (high - low), high];
+    [lower(x, 0.14), lower(y, 0.06)]
+}
+
+/// Some of the whole metres within bounds (m), as numbers at the left and below.
 fn numbers(recorder: &PlanarRecorder, [x, y]: [[f64; 2]; 2]) -> Result<(), Fault> {
     let few = |bounds: [f64; 2]| {
         let of = |step: i64| whole(bounds).filter(move |at| at % step == 0).collect::<Vec<_>>();
         [1, 2, 5, 10, 20, 50].map(of).into_iter().find(|some| some.len() <= MOST_NUMBERS).unwrap_or_default()
     };
-    let inside = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
-    let below = few(x).into_iter().map(|at| ([at as f64, inside(y, 0.03)], at));
-    let left = few(y).into_iter().map(|at| ([inside(x, 0.08), at as f64], at));
-    let (places, metres): (Vec<[f64; 2]>, Vec<i64>) = below.chain(left).unzip();
+    let [[left, _], _] = with_numbers([x, y]);
+    let beside = few(y).into_iter().map(|at| ([(left + x[0]) / 2.0, at as f64], at));
+    // The viewer writes below the place.
+    let below = few(x).into_iter().map(|at| ([at as f64, y[0]], at));
+    let (places, metres): (Vec<[f64; 2]>, Vec<i64>) = below.chain(beside).unzip();
     let labels = Points2D::new(points(&places))
         .with_labels(metres.iter().map(|at| format!("{at} m")))
         .with_colors([palette::IDLE])
