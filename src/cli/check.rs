@@ -9,14 +9,14 @@ use super::args::{Check, Global, Printed};
 use super::check_motion::judged_trajectory;
 use super::check_run::judged_again;
 use super::check_target::{Target, targets};
-use super::global_flags::is_command;
+use super::global_flags::command_of;
 use super::judged_run::judged_run;
 use super::load::options;
 use super::progress::Clock;
 use super::terminal::Terminal;
 use crate::report::{
     CheckReport, Checked, InputFault, Outcome, OutputError, Replaceable, check_text, followed, github, junit, junit_without_verdict,
-    lock_beside, replace_file,
+    lock_beside, remove_file, replace_file,
 };
 use crate::scenario::{Diagnostic, LoadOptions, Scenario, Severity};
 use crate::simulation::Progress;
@@ -24,20 +24,27 @@ use crate::simulation::Progress;
 /// Checks everything that the arguments name, on all cores. One that cannot be run does not keep the others from being checked; the worst
 /// outcome counts.
 pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> Outcome {
-    if let Some(device) = arguments.junit.as_deref().filter(|path| path.starts_with("/dev") || path.starts_with("/proc")) {
+    if let Some(device) = arguments.junit.as_deref().filter(|path| is_device(path)) {
         let device = device.display();
         terminal.error(&format!("error: --junit {device}: it is no file that a verdict could be kept in; --format junit prints it\n"));
         return Outcome::Usage;
     }
     // Whether the verdict can be written is known before minutes are spent on it; and until it is written, an earlier one does not stand for it.
     let lock = arguments.junit.as_deref().map(|path| lock_beside(&followed(path))).transpose();
+    // Where not even that can be written, no earlier verdict is better than one that is wrong.
+    let without = |error: &OutputError| {
+        if let (Some(path), OutputError::Io { .. }) = (&arguments.junit, error) {
+            remove_file(path, Replaceable::Junit);
+        }
+        not_written(error, terminal)
+    };
     let _held_until_the_end = match lock {
         Ok(lock) => lock,
-        Err(error) => return not_written(&error, terminal),
+        Err(error) => return without(&error),
     };
     let write = |text: &str| arguments.junit.as_deref().map_or(Ok(()), |path| replace_file(path, text.as_bytes(), Replaceable::Junit));
     if let Err(error) = write(&junit_without_verdict()) {
-        return not_written(&error, terminal);
+        return without(&error);
     }
     let targets = match targets(arguments, terminal) {
         Ok(targets) => targets,
@@ -63,7 +70,7 @@ pub(super) fn check(arguments: &Check, global: &Global, terminal: &Terminal) -> 
 /// `--junit` say so from here on, if there are any. `words` are those after the program's name.
 pub(super) fn withdraw_verdict(words: impl Iterator<Item = OsString>) {
     let words: Vec<OsString> = words.collect();
-    if words.iter().filter_map(|word| word.to_str()).find(|word| is_command(word)) != Some("check") {
+    if command_of(&words) != Some("check") {
         return;
     }
     let attached = words.iter().filter_map(|word| word.to_str()?.strip_prefix("--junit=").map(PathBuf::from));
@@ -72,6 +79,12 @@ pub(super) fn withdraw_verdict(words: impl Iterator<Item = OsString>) {
         // What is no JUnit is left alone, and what cannot be written was not ours to withdraw.
         _ = replace_file(&file, junit_without_verdict().as_bytes(), Replaceable::Junit);
     }
+}
+
+/// A pipe, a terminal, or standard output by another name: a verdict could not be replaced there.
+fn is_device(path: &Path) -> bool {
+    let is_special = path.metadata().is_ok_and(|about| !about.is_file() && !about.is_dir());
+    is_special || path.starts_with("/proc") || std::fs::read_link(path).is_ok_and(|target| target.starts_with("/proc"))
 }
 
 fn not_written(error: &OutputError, terminal: &Terminal) -> Outcome {

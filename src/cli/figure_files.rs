@@ -59,13 +59,10 @@ pub(super) fn draw(figures: &[Named], folder: &Path) -> Vec<String> {
     figures.iter().filter_map(|figure| written(figure).err()).collect()
 }
 
-/// The same, with what went wrong in one sentence.
+/// The same, all of them or none, with what went wrong in one sentence.
 pub(super) fn drawn(figures: &[Named], folder: &Path) -> Result<(), String> {
-    match &draw(figures, folder)[..] {
-        [] => Ok(()),
-        [failure] => Err(failure.clone()),
-        [first, others @ ..] => Err(format!("{first}, nor {} more of its folder", others.len())),
-    }
+    let failures = draw(figures, folder);
+    failures.first().map_or(Ok(()), |first| Err(format!("{} (all figures): {first}", folder.display())))
 }
 
 /// Writes a file beside its place and renames it: there is never half a figure.

@@ -94,5 +94,5 @@ fn read(steps: &Path) -> Result<Vec<StepRecord>, Failure> {
 /// A planar experiment takes seconds, and its scenario decides every bit of it.
 fn repeated_plane(folder: &Path, run: &PlanarRun) -> Result<Vec<Named>, Failure> {
     let left = run.run(&|| true).map_err(|error| Failure::of_learning(folder, &error))?;
-    Ok(planar_files::figures(&left))
+    Ok(planar_files::figures(&run.name, &left))
 }

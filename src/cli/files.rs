@@ -32,6 +32,12 @@ pub(super) const SKILL: &str = "skill.json";
 /// The folder with what was learned from.
 pub(super) const DEMONSTRATIONS: &str = "demonstrations";
 
+/// Keeps room for the report until it is written.
+const RESERVE: &str = "reserve.tmp";
+
+/// Room for the manifest, and for what the report has to say of files that could not be written (bytes).
+const MANIFEST_ROOM: usize = 64 << 10;
+
 /// What can be made again from the rest of a folder, or only shows it: it goes first when there is no room.
 const SPARE: [&str; 3] = ["recording.rrd", "figures", BESIDE];
 
@@ -46,7 +52,12 @@ pub(super) fn write(
 ) -> Result<Vec<String>, OutputError> {
     let mut room = Room::new(folder.staging(), spare);
     if let Some(left) = &run.left {
+        // What tells of the run must fit, whatever else does.
+        let reserve = vec![0; run.report.to_json().len() + scenario.resolved.len() + MANIFEST_ROOM];
+        room.put(RESERVE, |place| text(write_file(place, &reserve)));
         recordings(left, scenario, &mut room);
+        room.failures.retain(|failure| !failure.contains(RESERVE));
+        _ = std::fs::remove_file(folder.staging().join(RESERVE));
     }
     let mut lost: Vec<String> = Vec::new();
     loop {
@@ -86,11 +97,12 @@ fn recordings(left: &Left, scenario: &Scenario, room: &mut Room<'_>) {
     }
 }
 
+fn text<T, E: ToString>(result: Result<T, E>) -> Result<(), String> {
+    result.map(|_| ()).map_err(|error| error.to_string())
+}
+
 /// The archive first, what is drawn from it last.
 fn of_arm(left: &RunOutcome, experiment: &Experiment, plan: RecordingPlan, room: &mut Room<'_>) {
-    fn text<T, E: ToString>(result: Result<T, E>) -> Result<(), String> {
-        result.map(|_| ()).map_err(|error| error.to_string())
-    }
     if plan.steps {
         room.put(STEP_LOG, |place| text(recording::write_step_log(place, left)));
     }

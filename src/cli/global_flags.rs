@@ -2,6 +2,8 @@
 //!
 //! What the environment says is for all commands of a shell, so that it is refused by none.
 
+use std::ffi::OsString;
+
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, CommandFactory};
 
@@ -60,9 +62,22 @@ pub(super) fn without_effect(matches: &ArgMatches) -> Vec<String> {
     useless.map(told).collect()
 }
 
-/// Whether a command is called so.
-pub(super) fn is_command(word: &str) -> bool {
-    TAKEN.iter().any(|(command, _)| *command == word)
+/// The command in a command line that may make no sense otherwise: the first word that is neither a flag nor the value of one.
+pub(super) fn command_of(words: &[OsString]) -> Option<&str> {
+    let program = Cli::command();
+    let takes_value = |flag: &str| {
+        let mut flags = program.get_arguments().filter(|argument| argument.get_long() == Some(flag));
+        flags.next().is_some_and(|argument| argument.get_action().takes_values())
+    };
+    let mut words = words.iter().map(|word| word.to_str().unwrap_or_default());
+    while let Some(word) = words.next() {
+        match word.strip_prefix("--") {
+            Some(flag) if takes_value(flag) => _ = words.next(),
+            _ if word.starts_with('-') => {}
+            _ => return Some(word),
+        }
+    }
+    None
 }
 
 fn is_taken(taken: &[&str], flag: &str) -> bool {

@@ -42,7 +42,7 @@ impl JudgedRun {
             [] => terminal.error(&format!("error: {}\n", self.report.error.as_deref().unwrap_or_default())),
             faults => {
                 terminal.faults(faults);
-                self.refusal.elsewhere.iter().for_each(|one| terminal.error(&format!("error: {}\n", one.told)));
+                self.refusal.elsewhere.iter().for_each(|told| terminal.error(&format!("error: {told}\n")));
             }
         }
     }

@@ -14,19 +14,10 @@ use crate::simulation::{DemonstrationSource, SimulationError};
 /// What is wrong with the input.
 #[derive(Debug, Default)]
 pub(super) struct Located {
-    /// What stands in the scenario or the robot's file.
+    /// What has a place: in the scenario, the robot's file, or a file of demonstrations.
     pub faults: Vec<Diagnostic>,
-    /// What has no place there.
-    pub elsewhere: Vec<Elsewhere>,
-}
-
-/// Something wrong that neither the scenario nor the robot's file shows.
-#[derive(Debug)]
-pub(super) struct Elsewhere {
-    /// In words.
-    pub told: String,
-    /// The same of recorded data, fault by fault.
-    data: Vec<InputFault>,
+    /// What has none, one sentence each.
+    pub elsewhere: Vec<String>,
 }
 
 impl Located {
@@ -35,21 +26,24 @@ impl Located {
         let parts = error.parts();
         let of_robot = parts.iter().filter_map(|(_, part)| if let SimulationError::Urdf(found) = part { Some(found) } else { None });
         let of_robot: Vec<Finding> = of_robot.flat_map(|found| found.findings.iter().cloned()).collect();
-        let of_data = parts.iter().filter_map(|(_, part)| {
-            let (SimulationError::Demonstrations(error), Work::Arm(experiment)) = (part, &scenario.work) else { return None };
-            let DemonstrationSource::Dataset(folder) = &experiment.demonstrations else { return None };
-            Some(Elsewhere { told: error.to_string(), data: of_data(folder, error) })
-        });
-        let of_data: Vec<Elsewhere> = of_data.collect();
-        let is_file = |part: &SimulationError| match part {
-            SimulationError::Urdf(_) => true,
-            SimulationError::Demonstrations(_) => !of_data.is_empty(),
-            _ => false,
+        let folder = match &scenario.work {
+            Work::Arm(experiment) => match &experiment.demonstrations {
+                DemonstrationSource::Dataset(folder) => Some(folder),
+                DemonstrationSource::Teach(_) => None,
+            },
+            Work::Planar(_) => None,
         };
-        let others = parts.iter().filter(|(_, part)| !is_file(part));
-        let (faults, unplaced) = scenario.places.diagnose(others.map(|(key, part)| (*key, part.to_string())));
-        let unplaced = unplaced.into_iter().map(Elsewhere::new);
-        Self { faults, elsewhere: unplaced.chain(of_data).collect() }.with(&of_robot)
+        let (mut of_data, mut others) = (Vec::new(), Vec::new());
+        for (key, part) in parts {
+            match (part, folder) {
+                (SimulationError::Urdf(_), _) => {}
+                (SimulationError::Demonstrations(error), Some(folder)) => of_data.extend(in_data(folder, error)),
+                _ => others.push((key, part.to_string())),
+            }
+        }
+        let (mut faults, elsewhere) = scenario.places.diagnose(others);
+        faults.extend(of_data);
+        Self { faults, elsewhere }.with(&of_robot)
     }
 
     /// The same, and what is odd about the robot's file.
@@ -74,38 +68,27 @@ impl Located {
 
     /// All of it for a report; what has no place is the whole `file`'s.
     pub fn for_report(self, file: &Path) -> Vec<InputFault> {
-        let elsewhere = self.elsewhere.into_iter().flat_map(|one| match one.data.is_empty() {
-            true => vec![InputFault::of_file(file, FileCode::Scene, one.told)],
-            false => one.data,
-        });
+        let elsewhere = self.elsewhere.into_iter().map(|told| InputFault::of_file(file, FileCode::Scene, told));
         faults(&self.faults).into_iter().chain(elsewhere).collect()
     }
 
     /// All of it, one line each.
     pub fn text(&self) -> String {
-        let elsewhere = self.elsewhere.iter().map(|one| one.told.clone());
-        self.faults.iter().map(ToString::to_string).chain(elsewhere).collect::<Vec<_>>().join("\n")
+        self.faults.iter().map(ToString::to_string).chain(self.elsewhere.iter().cloned()).collect::<Vec<_>>().join("\n")
     }
 }
 
-impl Elsewhere {
-    /// Something that belongs to no file.
-    pub fn new(told: String) -> Self {
-        Self { told, data: Vec::new() }
-    }
-}
-
-/// Every fault of the recorded demonstrations in `folder`, in the file in which it stands.
-fn of_data(folder: &Path, error: &DemonstrationError) -> Vec<InputFault> {
-    let file =
-        |place: &str| Some(folder.join(place)).filter(|path| !place.is_empty() && path.is_file()).unwrap_or_else(|| folder.to_path_buf());
-    let told = |fault: &crate::demonstration::Fault| {
-        let path: PathBuf = file(&fault.place);
-        let found = InputFault::of_file(&path, FileCode::Dataset, fault.to_string());
-        InputFault { line: fault.row, column: fault.row.map(|_| 1), ..found }
+/// Every fault of the recorded demonstrations in `folder`, in the file and line in which it stands.
+fn in_data(folder: &Path, error: &DemonstrationError) -> Vec<Diagnostic> {
+    let mut texts: BTreeMap<PathBuf, Arc<str>> = BTreeMap::new();
+    let mut told = |place: &str, line: Option<usize>, message: String| {
+        let within = Some(folder.join(place)).filter(|path| !place.is_empty() && path.is_file());
+        let path = within.unwrap_or_else(|| folder.to_path_buf());
+        let text = texts.entry(path.clone()).or_insert_with(|| std::fs::read_to_string(&path).unwrap_or_default().into());
+        Diagnostic::at_line(Code::Dataset, Severity::Error, &path.display().to_string(), (line, text), message, None)
     };
     match error.faults() {
-        [] => vec![InputFault::of_file(folder, FileCode::Dataset, error.to_string())],
-        faults => faults.iter().map(told).collect(),
+        [] => vec![told("", None, error.to_string())],
+        faults => diagnose_some(faults, |fault| told(&fault.place, fault.row, fault.to_string())),
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn write(left: &PlanarOutcome, run: &PlanarRun, plan: RecordingPlan, 
         let traces = planar_traces(left, plan.hash_every_steps);
         room.put(STATE_LOG, |place| write_state_log(place, &traces).map_err(|error| error.to_string()));
     }
-    let figures = figures(left);
+    let figures = figures(&run.name, left);
     room.put("figures", |place| drawn(&figures, place));
     #[cfg(feature = "rerun")]
     if plan.rrd {
@@ -62,18 +62,19 @@ fn logged<'a>(movement: &'a Movement, setting: &'a str) -> LoggedPath<'a> {
 }
 
 /// The figures of an experiment: those of section 4.1, or those of section 4.2 with the side told and without.
-pub(super) fn figures(left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
+pub(super) fn figures(name: &str, left: &PlanarOutcome) -> Vec<(&'static str, Figure)> {
+    let title = |what: &str| format!("{name}: {what}");
     if left.cases_with(Guidance::OneSide).next().is_some() {
         return vec![
-            ("paths", planar_paths("Paths to taught and new goals", left, Guidance::OneSide)),
-            ("forcing", planar_forcing("Forcing terms and states of CPDMP", left, Guidance::OneSide, Method::Cpdmp)),
+            ("paths", planar_paths(&title("paths to taught and new goals"), left, Guidance::OneSide)),
+            ("forcing", planar_forcing(&title("forcing terms and states of CPDMP"), left, Guidance::OneSide, Method::Cpdmp)),
         ];
     }
     let mut figures = vec![
-        ("paths_with_side", planar_paths("The side is told", left, Guidance::WithSide)),
-        ("paths_without_side", planar_paths("The side is not told", left, Guidance::WithoutSide)),
-        ("forcing_with_side", planar_forcing("Forcing terms and states, side told", left, Guidance::WithSide, Method::Cpdmp)),
-        ("forcing_chains", planar_forcing("Forcing terms and states, by chains", left, Guidance::WithoutSide, Method::CpdmpChain)),
+        ("paths_with_side", planar_paths(&title("the side is told"), left, Guidance::WithSide)),
+        ("paths_without_side", planar_paths(&title("the side is not told"), left, Guidance::WithoutSide)),
+        ("forcing_with_side", planar_forcing(&title("forcing terms and states, side told"), left, Guidance::WithSide, Method::Cpdmp)),
+        ("forcing_chains", planar_forcing(&title("forcing terms and states, by chains"), left, Guidance::WithoutSide, Method::CpdmpChain)),
     ];
     figures.extend(left.transitions.iter().map(|t| ("transitions", graph(t))));
     figures

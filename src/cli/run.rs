@@ -13,7 +13,7 @@ use super::terminal::Terminal;
 use super::viewer::Open;
 #[cfg(feature = "rerun")]
 use super::watched::Watched;
-use crate::report::{Outcome, RunFolder, text};
+use crate::report::{Outcome, OutputError, RunFolder, text};
 use crate::scenario::Work;
 
 /// Runs every scenario; all are checked before the first one begins. The worst outcome counts.
@@ -80,7 +80,11 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
     let lost = files::write(&mut run, &ready.scenario, &folder, started, &|| {});
     #[cfg(feature = "rerun")]
     grown.settle();
-    let written = lost.and_then(|lost| Ok((folder.finish()?, lost)));
+    let unwritten = |error: OutputError| (error.outcome(), folder.in_place(&error.to_string()));
+    let written = match lost.map_err(unwritten) {
+        Ok(lost) => folder.finish().map(|place| (place, lost)).map_err(|error| (error.outcome(), error.to_string())),
+        Err(told) => Err(told),
+    };
     drop(progress);
     match terminal.format {
         Format::Human => terminal.result(&text(&run.report)),
@@ -96,9 +100,9 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
             }
             run.report.outcome
         }
-        Err(error) => {
-            terminal.error(&format!("error: {error}\n"));
-            run.report.outcome.max(error.outcome())
+        Err((outcome, told)) => {
+            terminal.error(&format!("error: {told}\n"));
+            run.report.outcome.max(outcome)
         }
     }
 }

@@ -59,7 +59,7 @@ fn taught(arguments: &Teach, global: &Global, terminal: &Terminal) -> Result<Out
     drop(progress);
     let (dataset, warnings) = taught.map_err(|error| {
         let Located { faults, elsewhere } = Located::of(&error, scenario);
-        Failure::new(outcome_of(&error), elsewhere.into_iter().map(|one| one.told)).because(faults)
+        Failure::new(outcome_of(&error), elsewhere).because(faults)
     })?;
     warnings.iter().for_each(|warning| terminal.note(&format!("warning: {warning}\n")));
     dataset.write(&out).map_err(|error| Failure::new(Outcome::OutputFailed, [error.to_string()]))?;

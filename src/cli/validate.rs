@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::args::{Format, Global};
 use super::judged_run::{of_learning, outcome_of};
 use super::load::options;
-use super::located::{Elsewhere, Located};
+use super::located::Located;
 use super::select::select;
 use super::terminal::Terminal;
 use crate::learning::LearningError;
@@ -92,7 +92,6 @@ fn checked(path: &Path, loaded: Result<Scenario, Vec<Diagnostic>>) -> Checked<'_
                 }
                 Err((_, Located { faults, elsewhere })) => {
                     checked.diagnostics.splice(0..0, faults);
-                    let elsewhere: Vec<String> = elsewhere.into_iter().map(|one| one.told).collect();
                     checked.error = (!elsewhere.is_empty()).then(|| elsewhere.join("\n"));
                 }
             }
@@ -120,7 +119,7 @@ impl Odd {
 pub(super) fn beyond_the_file(scenario: &Scenario) -> Result<Odd, (Outcome, Located)> {
     match &scenario.work {
         Work::Planar(planar) => {
-            let elsewhere = |error: &LearningError| Located { faults: Vec::new(), elsewhere: vec![Elsewhere::new(error.to_string())] };
+            let elsewhere = |error: &LearningError| Located { faults: Vec::new(), elsewhere: vec![error.to_string()] };
             let odd = Odd { robot: Vec::new(), dataset: Vec::new() };
             planar.check().map(|()| odd).map_err(|error| (of_learning(&error), elsewhere(&error)))
         }

@@ -57,8 +57,10 @@ impl Reader<'_> {
         while let Some((kind, next)) = self.field(id)? {
             id = next;
             match (id, kind) {
-                (2, 5) => unpacked = Some(self.whole()?),
-                (3, 5) => packed = Some(self.whole()?),
+                (2, 5) if unpacked.is_none() => unpacked = Some(self.whole()?),
+                (3, 5) if packed.is_none() => packed = Some(self.whole()?),
+                // Whoever reads the page might believe the other one.
+                (2 | 3, _) => return None,
                 _ => self.skip(kind, DEEPEST)?,
             }
         }
@@ -170,6 +172,12 @@ mod tests {
         let (small, large) = ([0xd0, 0x8f, 0x80, 0x80, 0x00], [0xfe, 0xff, 0xff, 0xff, 0x0f]);
         assert_eq!(told(&[page(small), page(small)].concat()), "good");
         assert!(told(&[page(small), page(large)].concat()).contains("claims 2147483647 bytes"));
+        // A size that is told again, or in another way, might be the one that is believed.
+        for again in [&[0x05, 0x04, 0xd0, 0x8f, 0x80, 0x80, 0x00][..], &[0x06, 0x04, 0xd0, 0x8f, 0x80, 0x80, 0x00]] {
+            let mut twice = page(small);
+            twice.splice(10..10, again.iter().copied());
+            assert!(told(&twice).contains("head of a page cannot be read"), "{}", told(&twice));
+        }
         let cut = page(small);
         for end in 1..cut.len() {
             assert_ne!(told(&cut[..end]), "good", "{end}");

@@ -2,13 +2,13 @@
 
 use nalgebra::Vector3;
 
-use super::arm_run::{ArmRun, kind_of};
+use super::arm_run::{ArmRun, kind_of, over_time};
 use super::canvas::{TEXT_PT, width_pt};
 use super::chart::{Axis, Chart, Figure};
 use super::mark::{Anchor, Mark};
 use crate::learning::cpdmp::{Statistic, spread_unit};
 use crate::palette::BLACK;
-use crate::palette::meaning::{COMPLIES, EXECUTED, EXPECTED, MEASURED, PERSON, PLANNED};
+use crate::palette::meaning::{COMPLIES, EXECUTED, EXPECTED, MEASURED, MINIMISES, PERSON, PLANNED};
 use crate::simulation::StepRecord;
 
 /// Width and height of a panel (pt).
@@ -109,7 +109,14 @@ fn millimetres(value_m2: f64) -> f64 {
 
 fn switch(run: &ArmRun) -> Chart {
     let mut chart = panel(run, "Compliance of the active state, and how far the coupling is on", "beta, activation (-)");
-    chart.marks.push(Mark::line("beta", COMPLIES, 2.2, run.executed(|step| step.beta)));
+    // Pieces of one colour, each up to where the next one begins.
+    let (mut from, minimises) = (0, |step: &StepRecord| step.beta > 0.0);
+    for piece in run.steps.chunk_by(|a, b| minimises(a) == minimises(b)) {
+        let until = (from + piece.len() + 1).min(run.steps.len());
+        let (legend, color) = if minimises(&piece[0]) { ("beta, minimises the force", MINIMISES) } else { ("beta", COMPLIES) };
+        chart.marks.push(Mark::line(legend, color, 2.2, over_time(&run.steps[from..until], |step| step.beta)));
+        from += piece.len();
+    }
     chart.marks.push(Mark::line("activation of the coupling", BLACK, 0.8, run.executed(|step| step.activation)));
     if let Some([_, vertical]) = &mut chart.axes {
         vertical.includes = vec![-1.0, 1.0];

@@ -6,14 +6,15 @@ use super::chart::Figure;
 use super::mark::Mark;
 use crate::demonstration::Parameters;
 use crate::learning::{LearningError, motion_sequences};
-use crate::palette::{BLACK, BLUE, GREEN, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION};
+use crate::palette::{BLACK, BLUE, BROWN, GREY, MAGENTA, Rgb, VERMILION, VIOLET, YELLOW};
 
-/// Colours of the settings; of more settings than colours the first ones are drawn.
-const COLORS: [Rgb; 6] = [BLUE, ORANGE, GREEN, PURPLE, SKY_BLUE, VERMILION];
+/// Colours of the settings, none of which is that of a plan, an execution or a kind of state elsewhere; of more settings than colours the first
+/// ones are drawn.
+const COLORS: [Rgb; 6] = [BLUE, VERMILION, MAGENTA, BROWN, VIOLET, YELLOW];
 
 /// One panel per column of the motion, a colour per taught setting: what its demonstrations demand (4), the skill's forcing and, at two
 /// standard deviations, the skill's states; on top of them the forcing in the setting of the execution. `None` when all were taught in one
-/// setting.
+/// setting, and for a skill that makes no difference between them.
 ///
 /// # Errors
 /// When the demonstrations cannot be used, or parameters are missing.
@@ -25,7 +26,7 @@ pub fn arm_settings(run: &ArmRun) -> Result<Option<Figure>, LearningError> {
             settings.push(&lesson.theta_m);
         }
     }
-    if settings.len() < 2 {
+    if settings.len() < 2 || motion.phmm().is_none() {
         return Ok(None);
     }
     let sequences = motion_sequences(run.dataset, run.learning)?;
@@ -34,6 +35,9 @@ pub fn arm_settings(run: &ArmRun) -> Result<Option<Figure>, LearningError> {
     let asked = ForcingCurve::of(motion, &run.skill.request(&run.question)?.theta)?;
     let panel = |j: usize| {
         let mut chart = panel_of(motion, j);
+        // In the legend once, not in the colour of one of them.
+        chart.marks.push(Mark::line("taught, in the colour of its setting", GREY, 0.6, Vec::new()));
+        chart.marks.push(Mark::area("state, two standard deviations", GREY, 0.15, Vec::new()));
         for ((theta, color), curve) in settings.iter().zip(COLORS).zip(&curves) {
             let of_setting = lessons.iter().zip(&sequences).filter(|(lesson, _)| lesson.theta_m == **theta);
             chart.marks.extend(of_setting.map(|(_, sequence)| Mark::line("", color.lighter(0.4), 0.6, demanded(sequence, j))));

@@ -6,7 +6,7 @@ use super::chart::{Axis, Chart, Figure};
 use super::mark::Mark;
 use super::transitions::chain_name;
 use crate::math::covariance_outline;
-use crate::palette::{GREY, Rgb, VERMILION};
+use crate::palette::{GREY, MAGENTA, Rgb};
 use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian, chain_color, named};
 
 /// Width and height of a panel (pt): of one for all situations, and of one of several.
@@ -72,7 +72,7 @@ fn look(curve: &ForcingCurve, method: Method) -> (String, Rgb) {
     let kind = if curve.taught { "taught" } else { "new" };
     match curve.chain {
         Some(chain) => (format!("{}, {kind}", chain_name(chain)), chain_color(chain)),
-        None => (format!("{}, {kind}", method.title()), if curve.taught { method.color() } else { VERMILION }),
+        None => (format!("{}, {kind}", method.title()), if curve.taught { method.color() } else { MAGENTA }),
     }
 }
 

@@ -35,13 +35,11 @@ pub enum FileCode {
     Scene,
     /// The scene has no arm that could make the movement.
     Planar,
-    /// Recorded demonstrations cannot be used.
-    Dataset,
 }
 
 impl FileCode {
     /// Every code.
-    pub const ALL: [Self; 6] = [Self::Unreadable, Self::Edited, Self::Trajectory, Self::Scene, Self::Planar, Self::Dataset];
+    pub const ALL: [Self; 5] = [Self::Unreadable, Self::Edited, Self::Trajectory, Self::Scene, Self::Planar];
 
     /// Its name and its meaning in one sentence.
     #[must_use]
@@ -54,7 +52,6 @@ impl FileCode {
                 ("scene", "what the scenario asks for is not possible with its robot or in its scene: a pose, a way, a place, a name")
             }
             Self::Planar => ("planar", "a movement of an arm is to be judged in the scene of an experiment in the plane, which has no arm"),
-            Self::Dataset => ("dataset", "recorded demonstrations cannot be used: their columns, times or values"),
         }
     }
 }

@@ -36,7 +36,10 @@ pub fn lock(path: &Path) -> Result<Lock, LockError> {
             Err(TryLockError::WouldBlock) => return Err(LockError::Held(holder(&mut file))),
             Err(TryLockError::Error(error)) => return Err(LockError::Io(error)),
         }
-        file.set_len(0).and_then(|()| file.write_all(token.as_bytes())).map_err(LockError::Io)?;
+        if let Err(error) = file.set_len(0).and_then(|()| file.write_all(token.as_bytes())) {
+            _ = fs::remove_file(path);
+            return Err(LockError::Io(error));
+        }
         // Whoever held the lock before may have removed the file between our opening and our locking: then we hold a file without a name.
         if fs::read_to_string(path).is_ok_and(|found| found == token) {
             return Ok(Lock { path: path.to_path_buf(), _file: file });

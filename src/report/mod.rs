@@ -53,7 +53,7 @@ pub use learn_report::LearnReport;
 pub use lock::{Lock, lock_beside};
 pub use manifest::{FileHash, Host, MANIFEST_VERSION, Manifest, hash_bytes, hash_file, read_regular};
 pub use outcome::Outcome;
-pub use output_file::{Replaceable, followed, prepare_file, replace_file, rewrite_file};
+pub use output_file::{Replaceable, followed, prepare_file, remove_file, replace_file, rewrite_file};
 pub use recorded_report::{Change, RecordedReport};
 pub use robot_section::{JointLine, RobotSection};
 pub use run_folder::{OutputError, RunFolder, write_file};

@@ -73,6 +73,14 @@ pub fn replace_file(path: &Path, content: &[u8], replaceable: Replaceable) -> Re
     write().map(|_| ()).map_err(OutputError::io(path))
 }
 
+/// Removes a file if it is what might be replaced; what cannot be removed stays.
+pub fn remove_file(path: &Path, replaceable: Replaceable) {
+    let place = followed(path);
+    if is_replaceable(&place, replaceable) {
+        _ = fs::remove_file(place);
+    }
+}
+
 /// Replaces the content of a file that is there, beside its place first, and leaves its permissions as they are. A link is followed.
 ///
 /// # Errors

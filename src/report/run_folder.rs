@@ -72,6 +72,7 @@ impl RunFolder {
         let lock = lock_beside(target)?;
         // Left behind only by a run that was killed: under the lock nobody else writes here.
         let staging = parent.join(format!(".{name}.partial"));
+        bring_back(target, &staging)?;
         remove_if_there(&staging)?;
         fs::create_dir(&staging).map_err(OutputError::io(&staging))?;
         Ok(Self { target: target.to_path_buf(), staging, _lock: lock })
@@ -147,11 +148,40 @@ pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputEr
     write().map_err(OutputError::io(path))
 }
 
+/// Puts a whole run in its place that a kill has left beside it, between the two renames of [`RunFolder::finish`]: the new one, which has its
+/// manifest, or the old one.
+fn bring_back(target: &Path, staging: &Path) -> Result<(), OutputError> {
+    let whole = [staging.to_path_buf(), staging.with_extension("old")].into_iter().find(|place| place.join("manifest.json").is_file());
+    match whole.filter(|_| !target.exists()) {
+        Some(place) => fs::rename(place, target).map_err(OutputError::io(target)),
+        None => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const MANIFEST: &str = r#"{"format":"cpdmp-run"}"#;
+
+    /// Contract: a kill between the renames of the end loses neither run.
+    #[test]
+    fn what_a_kill_left_beside_its_place_is_brought_back() {
+        let place = tempfile::tempdir().expect("a folder");
+        let target = place.path().join("a");
+        for whole in [".a.partial", ".a.old"] {
+            for beside in [".a.partial", ".a.old"] {
+                fs::create_dir_all(place.path().join(beside)).expect("made");
+            }
+            fs::write(place.path().join(whole).join("manifest.json"), MANIFEST).expect("written");
+            fs::write(place.path().join(whole).join("from"), whole).expect("written");
+            let folder = RunFolder::open(&target).expect("free");
+            assert_eq!(fs::read_to_string(target.join("from")).expect("there"), whole);
+            drop(folder);
+            fs::remove_dir_all(&target).expect("removed");
+            fs::remove_dir_all(place.path().join(".a.old")).ok();
+        }
+    }
 
     #[test]
     fn nothing_is_seen_before_the_end_and_an_older_run_stays_until_then() {

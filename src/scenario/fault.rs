@@ -55,11 +55,13 @@ pub enum Code {
     Robot,
     /// No criterion can fail.
     NothingAsked,
+    /// Recorded demonstrations that cannot be used.
+    Dataset,
 }
 
 impl Code {
     /// Every code, in the order in which `cpdmp explain` lists them.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::Unreadable,
         Self::Encoding,
         Self::Syntax,
@@ -81,6 +83,7 @@ impl Code {
         Self::Scene,
         Self::Robot,
         Self::NothingAsked,
+        Self::Dataset,
     ];
 
     /// Its name and its meaning in one sentence.
@@ -109,6 +112,7 @@ impl Code {
             }
             Self::Robot => ("robot", "the robot's description (URDF) cannot be used, or says something odd (a warning)"),
             Self::NothingAsked => ("nothing_asked", "no criterion of the scenario can fail: whatever happens passes (a warning)"),
+            Self::Dataset => ("dataset", "recorded demonstrations cannot be used: their columns, times or values"),
         }
     }
 }

@@ -16,7 +16,7 @@ use super::roots::Roots;
 use super::schema_sweep::SWEEP;
 use super::source::{Origin, Sources};
 use super::sweep_axis::{Axis, Draw};
-use super::sweep_checks::contradictions;
+use super::sweep_checks::{contradictions, is_decided};
 use super::sweep_flags;
 use super::sweep_member::{InvalidMember, Member, Setting, override_of};
 use super::tree::{Node, Value};
@@ -50,6 +50,15 @@ impl Sweep {
     /// # Errors
     /// Every fault of the file's text, of the overrides, and of what says how the scenario varies.
     pub fn load(path: &Path, options: &LoadOptions, sweep: &SweepOptions) -> Result<Self, InvalidScenario> {
+        Self::read(path, options, sweep, false)
+    }
+
+    /// What still varies in a file when flags may decide what varies in it.
+    pub(super) fn load_decided(path: &Path, options: &LoadOptions) -> Result<Self, InvalidScenario> {
+        Self::read(path, options, &SweepOptions::default(), true)
+    }
+
+    fn read(path: &Path, options: &LoadOptions, sweep: &SweepOptions, may_decide: bool) -> Result<Self, InvalidScenario> {
         let mut sources = Sources::default();
         let mut faults = Vec::new();
         let Some((mut tree, roots)) = layered(path, options, &mut sources, &mut faults) else {
@@ -61,6 +70,9 @@ impl Sweep {
         let repeat = sweep.repeat.map(|count| sweep_flags::repeat(count, seed, &mut sources));
         for axis in flags.into_iter().chain(repeat) {
             add(&mut axes, axis, &tree, &sources);
+        }
+        if may_decide {
+            axes.retain(|axis| !axis.keys.iter().any(|key| is_decided(key, &tree, options)));
         }
         faults.extend(contradictions(&axes, &tree, options));
         if options.lenient {

@@ -6,8 +6,8 @@ use super::diagnostic::Diagnostic;
 use super::fault::{Code, Fault, Severity};
 use super::load::LoadOptions;
 use super::overrides::steps;
-use super::sweep::{Sweep, SweepOptions};
-use super::sweep_axis::Axis;
+use super::sweep::Sweep;
+use super::sweep_axis::{Axis, AxisKey};
 use super::tree::Node;
 
 /// Most members that are looked at without being asked for.
@@ -38,30 +38,38 @@ impl Sweep {
     }
 }
 
-/// What keeps the `[[sweep]]` of a file from being run. Nothing in a file that has none. A flag may mend a file; and one that makes a single run of it
-/// does not make the file a bad one: of what is wrong with flags, only that counts which is wrong without them too.
+/// What keeps the `[[sweep]]` of a file from being run. Nothing in a file that has none. A flag may mend a file; one that makes a single run of it
+/// decides what otherwise varies; and what only flags make wrong in other members is no fault of the file, unless they are about the sweep itself.
 pub(super) fn faults_of_file(path: &Path, options: &LoadOptions) -> Vec<Diagnostic> {
-    let faults = |options: &LoadOptions| match Sweep::load(path, options, &SweepOptions::default()) {
+    let faults = |options: &LoadOptions| match Sweep::load_decided(path, options) {
         Ok(sweep) if sweep.axes.is_empty() => Vec::new(),
         Ok(sweep) => sweep.faults(),
         Err(invalid) => invalid.0,
     };
-    let mut found = faults(&LoadOptions { deny_warnings: false, ..options.clone() });
-    if !found.is_empty() {
-        let without = faults(&options.without_overrides());
-        found.retain(|fault| without.contains(fault));
-    }
-    found
+    let found = faults(&LoadOptions { deny_warnings: false, ..options.clone() });
+    let about_sweep = options.set.iter().any(|typed| typed.trim_start().starts_with("sweep"));
+    if found.is_empty() || about_sweep || !faults(&options.without_overrides()).is_empty() { found } else { Vec::new() }
+}
+
+/// Whether a flag gives a key of a sweep its one value.
+pub(super) fn is_decided(key: &AxisKey, tree: &Node, options: &LoadOptions) -> bool {
+    let place = steps(tree, &key.name);
+    let mut set = options.set.iter().filter_map(|typed| Some(steps(tree, typed.split_once('=')?.0)));
+    // Repetitions begin at the seed of `--seed`; listed seeds leave it nothing to say.
+    let seeded = key.name == "seed" && options.seed.is_some() && key.is_listed();
+    let robot = || within(&["robot", "urdf"].map(str::to_owned), &place);
+    set.any(|set| within(&set, &place)) || seeded || (options.robot.is_some() && robot())
+}
+
+/// One within the other: whichever is put in place last would change what the other says.
+fn within(a: &[String], b: &[String]) -> bool {
+    a.starts_with(b) || b.starts_with(a)
 }
 
 /// Keys that two entries vary, or that something else decides.
 pub(super) fn contradictions(axes: &[Axis], tree: &Node, options: &LoadOptions) -> Vec<Fault> {
     let keys: Vec<_> = axes.iter().flat_map(|axis| &axis.keys).collect();
     let places: Vec<Vec<String>> = keys.iter().map(|key| steps(tree, &key.name)).collect();
-    let set: Vec<Vec<String>> = options.set.iter().filter_map(|typed| Some(steps(tree, typed.split_once('=')?.0))).collect();
-    // One within the other: whichever is put in place last would change what the other says.
-    let within = |a: &[String], b: &[String]| a.starts_with(b) || b.starts_with(a);
-    let robot = ["robot", "urdf"].map(str::to_owned);
     let mut faults = Vec::new();
     for (index, key) in keys.iter().enumerate() {
         let mut refuse = |message: String, expected: &str| faults.push(Fault::at(Code::Conflict, key.origin, message).expected(expected));
@@ -72,9 +80,7 @@ pub(super) fn contradictions(axes: &[Axis], tree: &Node, options: &LoadOptions) 
         if places[..index].iter().any(|earlier| within(earlier, &places[index])) {
             refuse(format!("`{}` varies twice", key.name), "one entry of the sweep per key");
         }
-        // Repetitions begin at the seed of `--seed`; listed seeds leave it nothing to say.
-        let seeded = key.name == "seed" && options.seed.is_some() && key.is_listed();
-        if set.iter().any(|set| within(set, &places[index])) || seeded || (options.robot.is_some() && within(&robot, &places[index])) {
+        if is_decided(key, tree, options) {
             refuse(format!("`{}` varies, but a flag gives it one value", key.name), "one of the two");
         }
         if let Some(again) = key.repeated() {

@@ -7,8 +7,10 @@ use crate::demonstration::Trajectory;
 /// The columns of a pose.
 pub(super) const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"];
 
-/// How far the tool may be from where its joints have it (m, and rad), for both to be of one movement: what digits lose that somebody has rounded.
-const AGREE: f64 = 1e-3;
+/// How far the tool may be from where its joints have it, for both to be of one movement (m): what angles lose that are written with three decimals.
+const AGREE_M: f64 = 5e-3;
+/// How far it may be turned away from there (rad).
+const AGREE_RAD: f64 = 1e-2;
 
 /// The names that columns must have to describe the arm.
 pub(super) struct ArmColumns {
@@ -40,11 +42,13 @@ impl ArmColumns {
         }
         let why = match self.parting(setup, trajectory) {
             Some((off_m, off_rad, time_s)) if ways.len() == 2 => {
-                if off_m <= AGREE && off_rad <= AGREE {
+                if off_m <= AGREE_M && off_rad <= AGREE_RAD {
                     return None;
                 }
                 let (off_mm, off_deg) = (off_m * 1e3, off_rad.to_degrees());
-                format!("which are up to {off_mm:.1} mm and {off_deg:.1} deg apart (at {time_s:.3} s)")
+                let (most_mm, most_deg) = (AGREE_M * 1e3, AGREE_RAD.to_degrees());
+                let apart = format!("which are up to {off_mm:.1} mm and {off_deg:.1} deg apart (at {time_s:.3} s)");
+                format!("{apart}, more than {most_mm:.0} mm and {most_deg:.1} deg")
             }
             _ => "which may contradict each other".to_owned(),
         };

@@ -67,6 +67,12 @@ pub enum MotionSpace {
 }
 
 impl Experiment {
+    /// The object that something is a part of, or is: `block` of `block.base`.
+    pub(super) fn object_of(&self, part: &str) -> Option<&str> {
+        let name = part.split('.').next();
+        self.objects.iter().map(|object| object.name.as_str()).find(|object| name == Some(object))
+    }
+
     /// The question that it puts to the skill.
     #[must_use]
     pub fn question(&self) -> ExecutionSettings {

@@ -14,17 +14,20 @@ pub(super) fn check_parts(experiment: &Experiment, robot: &RobotModel) -> Result
     let unknown = experiment.named_parts.iter().filter(|part| !is_part(&part.name) && !links().any(|link| link == part.name));
     let unknown = unknown.map(|NamedPart { key, name }| {
         let near = robot::nearest_name(name, links().chain(parts.iter().map(String::as_str)));
-        let told = match object_of(experiment, name) {
-            Some(object) => format!("object `{object}` has no part `{name}`"),
+        let told = match experiment.object_of(name) {
+            Some(object) => {
+                let of_object = parts.iter().filter(|part| part.split('.').next() == Some(object));
+                format!("object `{object}` has no part `{name}`, only {}", of_object.map(String::as_str).collect::<Vec<_>>().join(", "))
+            }
             None => format!("the robot has no link `{name}`, and the scene no object of that name"),
         };
         SimulationError::Scene(told + &did_you_mean(near)).at(key)
     });
     let ends = experiment.named_parts.windows(2).filter(|pair| pair[0].key.strip_suffix('a') == pair[1].key.strip_suffix('b'));
     let inside = ends.filter_map(|pair| {
-        let object = object_of(experiment, &pair[0].name)?;
+        let object = experiment.object_of(&pair[0].name)?;
         let told = || format!("both ends are of object `{object}`, whose parts never touch each other: it would allow nothing");
-        (pair[0].name != pair[1].name && object_of(experiment, &pair[1].name) == Some(object))
+        (pair[0].name != pair[1].name && experiment.object_of(&pair[1].name) == Some(object))
             .then(|| SimulationError::Scene(told()).at(&pair[1].key))
     });
     let twins = experiment.objects.iter().filter(|object| links().any(|link| link == object.name)).map(|object| {
@@ -79,12 +82,6 @@ fn parts_of(object: &Object, parameters: &Parameters) -> Vec<String> {
     let all = object_parts(object, parameters).into_iter().chain(fixed_parts(object));
     let called = all.map(|part| if part.name.is_empty() { object.name.clone() } else { format!("{}.{}", object.name, part.name) });
     called.collect()
-}
-
-/// The object that a name is of.
-fn object_of<'a>(experiment: &'a Experiment, name: &str) -> Option<&'a str> {
-    let of = name.split('.').next();
-    experiment.objects.iter().map(|object| object.name.as_str()).find(|object| of == Some(object))
 }
 
 fn did_you_mean(near: Option<&str>) -> String {

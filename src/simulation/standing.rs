@@ -18,7 +18,9 @@ impl Setup {
         let posture = start.unwrap_or(&self.experiment.robot.rest_posture_rad);
         match self.world(parameters, posture, false) {
             Err(SimulationError::World(WorldError::Overlap(mut pairs))) => {
-                pairs.retain(|pair| start.is_some() || (self.object_of(&pair.a).is_some() && self.object_of(&pair.b).is_some()));
+                pairs.retain(|pair| {
+                    start.is_some() || (self.experiment.object_of(&pair.a).is_some() && self.experiment.object_of(&pair.b).is_some())
+                });
                 (!pairs.is_empty()).then(|| self.inside_each_other(pairs, whose))
             }
             built => built.err().filter(|_| start.is_some()),
@@ -27,18 +29,13 @@ impl Setup {
 
     fn inside_each_other(&self, pairs: Vec<Overlap>, whose: &str) -> SimulationError {
         let told = pairs.into_iter().map(|pair| {
-            let culprit = self.object_of(&pair.a).or_else(|| self.object_of(&pair.b)).map(|object| format!("object.{object}"));
+            let culprit =
+                self.experiment.object_of(&pair.a).or_else(|| self.experiment.object_of(&pair.b)).map(|object| format!("object.{object}"));
             // Of the robot alone it is the posture of the arm that nobody leads.
             let culprit = culprit.or_else(|| self.idle().map(|_| "robot.idle_posture_rad".to_owned()));
             SimulationError::Scene(format!("{whose}: {}", WorldError::Overlap(vec![pair]))).at_if(culprit)
         });
         SimulationError::Several(told.collect())
-    }
-
-    /// The object of which something is a part.
-    fn object_of(&self, part: &str) -> Option<&str> {
-        let name = part.split('.').next();
-        self.experiment.objects.iter().map(|object| object.name.as_str()).find(|object| name == Some(object))
     }
 
     /// Everything that can fall lies on a table: there is no floor. Handles are on their doors.

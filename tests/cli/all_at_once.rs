@@ -154,8 +154,13 @@ fn faults_of_data_stand_in_the_data() {
     let told = json(&folder.call(&["check", "a.toml", "--format", "json", "-q"]));
     let faults = told["checks"][0]["faults"].as_array().expect("a list").clone();
     assert!(!faults.is_empty(), "{told:#}");
-    for fault in &faults {
+    let validated = json(&folder.call(&["validate", "a.toml", "--format", "json"]));
+    let diagnostics = validated["diagnostics"].as_array().expect("a list");
+    assert_eq!((diagnostics.len(), &validated["error"]), (faults.len(), &Value::Null), "{validated:#}");
+    for fault in faults.iter().chain(diagnostics) {
         assert_eq!((&fault["code"], &fault["file"]), (&"dataset".into(), &"lessons/a.csv".into()), "{fault}");
         assert!(fault["line"].as_u64().is_some_and(|line| line == 3 || line == 4), "{fault}");
     }
+    let said = folder.call(&["run", "a.toml"]);
+    assert!(said.code == Some(3) && said.stderr.contains("0.1,nan,0.1,0.2"), "the line is shown: {}", said.stderr);
 }

@@ -132,6 +132,10 @@ fn a_check_without_a_verdict_leaves_no_green_file() {
         let told = std::fs::read_to_string(folder.path().join(file)).expect("there");
         assert!(told.contains("did not come to its end"), "{file}: {told}");
     }
+    // The value of a flag is no command.
+    assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
+    assert_eq!(folder.call(&["--out", "run", "check", "a.toml", "--bogus", "--junit", "v.xml"]).code, Some(2));
+    assert!(written().contains("did not come to its end"), "{}", written());
     let said = folder.call(&["check", "a.toml", "--junit", "/dev/stdout"]);
     assert!(said.code == Some(2) && said.stderr.contains("--format junit prints it"), "{}", said.stderr);
     // An empty file is free, and a link leads to what is read.

@@ -153,7 +153,8 @@ fn joints_and_tool_are_one_movement_or_refused() {
     assert_eq!(warnings(&one), "[]", "{one:#}");
     let two = checked(&folder(&samples(&[REST, REST], &columns(0.03))), &[], 3).to_string();
     assert!(
-        two.contains("and by [x_m, y_m, z_m, qx, qy, qz, qw]") && two.contains("up to 30.0 mm and 0.0 deg apart (at 0.000 s)"),
+        two.contains("and by [x_m, y_m, z_m, qx, qy, qz, qw]")
+            && two.contains("up to 30.0 mm and 0.0 deg apart (at 0.000 s), more than 5 mm and 0.6 deg"),
         "{two}"
     );
 }

@@ -116,6 +116,24 @@ fn patterns_are_those_of_a_shell() {
     for nothing in ["[", "**a", "c.toml*"] {
         assert_eq!(folder.call(&["list", nothing]).code, Some(5), "{nothing}");
     }
+    // A folder that matches is as good as an argument, what is hidden matches nothing, and links lead into no circle.
+    let listed = |folder: &Folder, pattern: &str| {
+        let said = folder.call(&["list", pattern]);
+        said.stdout.lines().filter_map(|line| line.split_whitespace().next().map(str::to_owned)).collect::<Vec<_>>()
+    };
+    assert_eq!(listed(&folder, "de*"), ["deep/c.toml"]);
+    let hidden = Folder::with(&[("a.toml", good), (".hidden/b.toml", good), (".c.toml", good), ("in/d.toml", good)]);
+    assert_eq!(listed(&hidden, "**/*.toml"), ["a.toml", "in/d.toml"]);
+    assert_eq!(listed(&hidden, "."), ["./a.toml"]);
+    #[cfg(unix)]
+    {
+        for name in ["x", "y", "z"] {
+            std::os::unix::fs::symlink(".", hidden.path().join("in").join(name)).expect("a link");
+        }
+        std::os::unix::fs::symlink("in", hidden.path().join("link")).expect("a link");
+        assert_eq!(listed(&hidden, "**/*.toml"), ["a.toml", "in/d.toml"]);
+        assert_eq!(listed(&hidden, "l*/*.toml"), ["link/d.toml"]);
+    }
 }
 
 #[test]

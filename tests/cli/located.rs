@@ -116,7 +116,10 @@ fn what_allows_nothing_and_what_is_not_there_are_faults() {
     let folder = Folder::with(&[("a.toml", text.as_bytes())]);
     let said = folder.call(&["validate", "a.toml"]);
     assert!(said.code == Some(3) && said.stderr.contains("would allow nothing"), "{}", said.stderr);
-    for (a, b, told) in [("block", "block.base", "would allow nothing"), ("left_hand", "block.left_pst", "object `block` has no part")] {
+    for (a, b, told) in [
+        ("block", "block.base", "would allow nothing"),
+        ("left_hand", "block.left_pst", "object `block` has no part `block.left_pst`, only block.base, block.near_post, block.far_post"),
+    ] {
         let text = format!("{GOOD}\n[[allowed_contact]]\nname = \"none\"\na = \"{a}\"\nb = \"{b}\"\n");
         let said = Folder::with(&[("a.toml", text.as_bytes())]).call(&["validate", "a.toml"]);
         assert!(said.code == Some(3) && said.stderr.contains(told), "{a}, {b}: {}", said.stderr);

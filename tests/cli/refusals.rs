@@ -127,4 +127,20 @@ fn flags_mend_a_file_that_has_a_sweep() {
     assert_eq!(said.code, Some(0), "{}", said.stderr);
     let said = folder.call(&["sweep", "rates.toml", "--set", "simulation.step_s=0.002", "--dry-run"]);
     assert!(said.code == Some(3) && said.stderr.contains("more than the engine's steps"), "the sweep is another matter: {}", said.stderr);
+
+    // A sweep that is wrong with and without a flag is wrong, in whatever words; and so is one that flags make wrong by what they say of it.
+    let durations = format!("{GOOD}\n[[sweep]]\nkind = \"grid\"\nkey = \"teaching.duration_s\"\nvalues = [3.0, 5.0]\n");
+    let radii = format!("{GOOD}\n[[sweep]]\nkind = \"grid\"\nkey = \"object.toy.radius_m\"\nvalues = [0.03, 0.031]\n");
+    let folder = Folder::with(&[("durations.toml", durations.as_bytes()), ("radii.toml", radii.as_bytes())]);
+    for (flags, code) in [
+        (&["durations.toml"][..], 3),
+        (&["durations.toml", "--set", "teaching.waypoint.1.time_s=3.9"], 3),
+        (&["radii.toml"], 0),
+        (&["radii.toml", "--set", "object.toy.radius_m=0.032"], 0),
+        (&["radii.toml", "--set", "sweep.0.values=[-1.0]"], 3),
+        (&["radii.toml", "--set", "sweep.0.key=object.toy.radus_m"], 3),
+    ] {
+        let said = folder.call(&[&["validate"], flags].concat());
+        assert_eq!(said.code, Some(code), "{flags:?}: {}", said.stderr);
+    }
 }

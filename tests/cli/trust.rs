@@ -101,6 +101,21 @@ fn runs_are_found_whatever_they_lost() {
     }
 }
 
+/// Contract: what a pattern matches is judged, folders too; a run that is being written, or was killed while it was, is hidden.
+#[test]
+fn a_pattern_passes_nothing_over() {
+    let bad = GOOD.replace("max_m = 0.02", "max_m = 1e-9");
+    let folder = Folder::with(&[("x.toml", GOOD.as_bytes()), ("x_more/bad.toml", bad.as_bytes())]);
+    assert_eq!(kinds(&folder, &["x*"]), (Some(10), vec!["scenario".to_owned(), "scenario".to_owned()]));
+    assert_eq!(folder.call(&["run", "x.toml", "--out", "runs/one", "-q"]).code, Some(0));
+    fs::create_dir(folder.path().join("runs/.two.partial")).expect("made");
+    fs::write(folder.path().join("runs/.two.partial/report.json"), "{}").expect("written");
+    fs::write(folder.path().join("runs/.two.partial/scenario.toml"), GOOD).expect("written");
+    for path in ["runs", "runs/*"] {
+        assert_eq!(kinds(&folder, &[path]), (Some(0), vec!["run".to_owned()]), "{path}");
+    }
+}
+
 /// Contract: a run of which only its recording or its snapshots are left beside its scenario is not simulated as if it were one.
 #[test]
 fn what_is_left_of_a_run_is_no_scenario() {

@@ -201,7 +201,9 @@ fn taught_settings_have_a_line_and_their_states_each() {
     assert!(heights.len() > 1);
     for (j, panel) in figure.panels.iter().enumerate() {
         let area = |mark: &'_ Mark| matches!(mark.shape, Shape::Area { .. });
-        let outlines: Vec<&[[f64; 2]]> = panel.marks.iter().filter(|mark| area(mark)).map(outline).collect();
+        let areas: Vec<&[[f64; 2]]> = panel.marks.iter().filter(|mark| area(mark)).map(outline).collect();
+        // One without a place stands for them in the legend.
+        let outlines: Vec<&[[f64; 2]]> = areas.into_iter().filter(|outline| !outline.is_empty()).collect();
         assert_eq!(outlines.len(), heights.len() * phmm.states());
         for height in &heights {
             let theta = motion.parameters.resolve(&[("block_height_m".into(), *height)]).expect("known");
@@ -224,6 +226,42 @@ fn taught_settings_have_a_line_and_their_states_each() {
             }
         }
     }
+}
+
+/// Contract: the legend says what everything is that is drawn of a setting, and no setting has a colour that means something else in the figures
+/// beside this one.
+#[test]
+fn the_legend_of_taught_settings_is_whole() {
+    let parts = Parts::of(outcome());
+    let figure = arm_settings(&parts.run()).expect("drawn").expect("several settings");
+    let taken = [meaning::PLANNED, meaning::EXECUTED, meaning::TAUGHT, STIFF, meaning::COMPLIES];
+    for panel in &figure.panels {
+        for legend in ["taught, in the colour of its setting", "state, two standard deviations"] {
+            assert_eq!(marks(panel, legend).len(), 1, "{legend}");
+        }
+        let of_settings = panel.marks.iter().filter(|mark| mark.legend.contains("block_height_m"));
+        assert!(of_settings.clone().count() > 1 && of_settings.clone().all(|mark| !taken.contains(&mark.color)));
+    }
+    let blind = Parts::of(outcome_of_the_baseline());
+    assert!(arm_settings(&blind.run()).expect("drawn").is_none(), "what makes no difference between settings has no such figure");
+}
+
+/// Contract: `beta` is drawn as the records have it, violet where the arm minimises the force error.
+#[test]
+fn beta_has_the_colour_of_what_it_does() {
+    let mut parts = Parts::of(outcome());
+    let whole = arm_compliance(&parts.run());
+    let records: Vec<[f64; 2]> = parts.outcome.steps.iter().map(|step| [step.time_s, step.beta]).collect();
+    let switch = |figure: &Figure| figure.panels[1].clone();
+    assert_eq!(line(&switch(&whole), "beta"), records);
+    for step in &mut parts.outcome.steps {
+        step.beta = -step.beta;
+    }
+    let figure = arm_compliance(&parts.run());
+    let [mark] = marks(&figure.panels[1], "beta, minimises the force")[..] else { panic!("one piece") };
+    assert!(mark.color == MINIMISES);
+    let drawn = line(&figure.panels[1], "beta, minimises the force");
+    assert!(drawn[..COMPLIES.len()].iter().all(|point| point[1] > 0.0) && drawn.len() == COMPLIES.len() + 1);
 }
 
 /// Contract: a door's arc lies at the handle's distance about its hinge, and is drawn from above in true place.
@@ -262,7 +300,7 @@ fn every_figure_can_be_drawn_also_for_a_skill_without_states() {
         figures.extend(arm_paths(&run));
         figures.extend(arm_settings(&run).expect("drawn"));
         figures.extend(arm_states(&run).expect("drawn"));
-        assert_eq!(figures.len(), if states > 0 { 7 } else { 6 });
+        assert_eq!(figures.len(), if states > 0 { 7 } else { 5 });
         for figure in figures {
             assert!(svg(&figure).is_ok_and(|text| text.contains("made up, seed 1")), "{}", figure.title);
         }

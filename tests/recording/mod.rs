@@ -13,4 +13,6 @@ mod planar_recording;
 pub mod read_rrd;
 #[cfg(feature = "rerun")]
 mod recording_file;
+#[cfg(feature = "rerun")]
+mod scene;
 mod step_log;

@@ -96,6 +96,23 @@ fn dots_move_along_the_paths_of_their_method() {
     }
 }
 
+/// Contract: the scale of the plane is written: a few whole metres along each axis, each where it is.
+#[test]
+fn some_metres_are_written_where_they_are() {
+    let of_entity = || RECORDED.1.iter().filter(|chunk| *chunk.entity_path() == planar_entity::GRID_NUMBERS.path());
+    let labels = rerun::Points2D::descriptor_labels().component;
+    let read = |chunk: &Chunk| {
+        chunk.iter_slices::<String>(labels).flat_map(|words| words.iter().map(ToString::to_string).collect::<Vec<_>>()).collect()
+    };
+    let words: Vec<String> = of_entity().flat_map(|chunk: &Chunk| -> Vec<String> { read(chunk) }).collect();
+    let positions = rerun::Points2D::descriptor_positions().component;
+    let places: Vec<[f32; 2]> =
+        of_entity().flat_map(|chunk| chunk.iter_slices::<[f32; 2]>(positions).flatten().copied().collect::<Vec<_>>()).collect();
+    assert_eq!(words.len(), places.len());
+    let along = |axis: usize| places.iter().zip(&words).filter(|(place, words)| **words == format!("{} m", place[axis])).count();
+    assert!((2..=5).contains(&along(0)) && (2..=5).contains(&along(1)) && words.len() == along(0) + along(1), "{words:?} at {places:?}");
+}
+
 #[test]
 fn entities_and_the_timeline_are_those_that_are_documented() {
     let chunks = &RECORDED.1;

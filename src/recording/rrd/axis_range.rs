@@ -12,6 +12,9 @@ pub(super) const LEAST_STEP: f64 = 0.22;
 pub(super) const LEAST_STEP_OF_LOW: f64 = 0.4;
 pub(super) const LEAST_STEP_OF_HIGH: f64 = 0.18;
 
+/// A second number is not worth a range that is more than so many times what is drawn: that would be a line in half a plot.
+const MOST_EXTENDED: f64 = 2.0;
+
 /// Free space above and below, as a share of the range: a number at the end of what is drawn is whole.
 const SPACE: f64 = 0.1;
 
@@ -49,11 +52,12 @@ impl Ranges {
 /// The range of no value.
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// A range around another one in which at least two numbers are written, none of them at its edge.
+/// A range around another one in which at least two numbers are written, none of them at its edge, unless that takes too much room.
 fn shown([mut low, mut high]: [f64; 2], least_step: f64) -> [f64; 2] {
     if high - low <= f64::EPSILON * high.abs().max(1.0) {
         (low, high) = (low - 1.0, high + 1.0);
     }
+    let drawn = [low, high];
     let step = 10_f64.powf(((high - low) * least_step).log10().ceil());
     let [down, up] = [(low / step).floor() * step, (high / step).ceil() * step];
     let written = (high / step).floor() - (low / step).ceil() + 1.0;
@@ -67,6 +71,9 @@ fn shown([mut low, mut high]: [f64; 2], least_step: f64) -> [f64; 2] {
     if written < 1.0 || (written < 2.0 && !to_low) || above < near {
         high = up;
     }
+    if high - low > MOST_EXTENDED * (drawn[1] - drawn[0]) {
+        [low, high] = drawn;
+    }
     let space = SPACE * (high - low);
     [low - space, high + space]
 }
@@ -75,23 +82,46 @@ fn shown([mut low, mut high]: [f64; 2], least_step: f64) -> [f64; 2] {
 mod tests {
     use super::*;
 
+    const RANGES: [[f64; 2]; 12] = [
+        [-0.113, -0.058],
+        [0.0, 9.6],
+        [0.0, 7.7],
+        [-7.7, 0.0],
+        [0.51, 0.83],
+        [2.1, 2.9],
+        [0.0, 0.0],
+        [5.0, 5.0],
+        [-40.0, 61.0],
+        [-3e-6, 1e-6],
+        [-27.6, 18.4],
+        [-31.0, 29.0],
+    ];
+
+    /// What is drawn with some space around it.
+    fn with_space(range: [f64; 2]) -> f64 {
+        let drawn = if range[0] < range[1] { range[1] - range[0] } else { 2.0 };
+        (1.0 + 2.0 * SPACE) * drawn
+    }
+
     #[test]
-    fn two_numbers_are_written_and_everything_is_inside() {
-        for range in [
-            [-0.113, -0.058],
-            [0.0, 9.6],
-            [0.0, 7.7],
-            [-7.7, 0.0],
-            [0.51, 0.83],
-            [2.1, 2.9],
-            [0.0, 0.0],
-            [5.0, 5.0],
-            [-3e-6, 1e-6],
-            [-40.0, 61.0],
-        ] {
+    fn everything_is_inside_and_takes_half_of_the_plot() {
+        for range in RANGES {
             for least_step in [LEAST_STEP, LEAST_STEP_OF_LOW, LEAST_STEP_OF_HIGH] {
                 let [low, high] = shown(range, least_step);
                 assert!(low < range[0] && high > range[1], "{range:?}: {low} … {high}");
+                assert!(high - low <= MOST_EXTENDED * with_space(range) * (1.0 + 1e-12), "{range:?}: {low} … {high}");
+            }
+        }
+        // 28 N to one side and 18 N to the other are not drawn up to 100 N.
+        let [low, high] = shown([-27.6, 18.4], LEAST_STEP);
+        assert!(low > -35.0 && high < 25.0, "{low} … {high}");
+    }
+
+    #[test]
+    fn two_numbers_are_written_where_there_is_room() {
+        for range in &RANGES[1..9] {
+            for least_step in [LEAST_STEP, LEAST_STEP_OF_LOW, LEAST_STEP_OF_HIGH] {
+                let [low, high] = shown(*range, least_step);
                 // What is added above and below makes the same step a smaller share of the height.
                 let grown = (1.0 + 2.0 * 1.5 * SPACE) * (1.0 + 2.0 * SPACE);
                 let step = 10_f64.powf(((high - low) * least_step / grown).log10().ceil());

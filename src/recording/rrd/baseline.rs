@@ -1,12 +1,11 @@
 //! The counterfactual beside a run: where the way of plain DMPs by locally weighted regression would lead, learned from the same
 //! demonstrations. They are not told the parameters; what a run with them does is another scenario's to show.
 
-use rerun::LineStrips3D;
-
+use super::camera::Camera;
 use super::entity_path::BASELINE_PATH;
 use super::palette;
-use super::paths::Path;
-use super::recorder::{Fault, Recorder};
+use super::paths::{Path, strip};
+use super::recorder::{Fault, Recorder, Since};
 use crate::demonstration::Trajectory;
 use crate::learning::{ExecutionSettings, LearningError, LearningSettings, ShapingKind, generate, learn};
 use crate::simulation::{Experiment, MotionSpace, RunOutcome};
@@ -19,13 +18,12 @@ pub(super) fn compares(experiment: &Experiment) -> bool {
     experiment.learning.shaping != ShapingKind::Lwr && !experiment.theta_m.is_empty() && experiment.space == MotionSpace::Task
 }
 
-/// Logs the path.
-pub(super) fn log_baseline(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), Fault> {
+/// Logs the path, as a camera sees it.
+pub(super) fn log_baseline(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome, camera: &Camera) -> Result<(), Fault> {
     // Demonstrations that the baseline cannot learn from have none, and the run stands without it.
     let Ok(way) = plan(experiment, outcome) else { return Ok(()) };
     let Some(points) = Path::new(&way, way.duration_s()).points() else { return Ok(()) };
-    let strip = LineStrips3D::new([points]).with_colors([palette::BASELINE]).with_radii([0.002]);
-    recorder.always(BASELINE_PATH.path(), &strip)
+    recorder.from(Since::Start, BASELINE_PATH.path(), &strip(points, palette::BASELINE, 0.002, camera))
 }
 
 /// What the baseline generates in the setting of `experiment`.

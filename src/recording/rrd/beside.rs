@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use rerun::{Color, LineStrips3D, Scalars, TextDocument};
 
+use super::camera::Camera;
 use super::entity_path::{BESIDE_COLORS, BESIDE_ERROR, BESIDE_FORCE, BESIDE_MOTION, BESIDE_PATH, ERROR_COLORS, Entity};
 use super::palette;
 use super::paths::{AXES, pieces, style};
@@ -20,12 +21,12 @@ pub(super) fn look(index: usize) -> (Color, &'static str) {
     (palette::rgb(color), name)
 }
 
-/// Logs where the tool went, and the forces.
-pub(super) fn log_beside(recorder: &Recorder, beside: &Beside, index: usize) -> Result<(), Fault> {
+/// Logs where the tool went, as a camera sees it, and the forces.
+pub(super) fn log_beside(recorder: &Recorder, beside: &Beside, index: usize, camera: &Camera) -> Result<(), Fault> {
     let (color, _) = look(index);
     let (name, records) = (beside.name.as_str(), &beside.outcome.steps);
     let path = BESIDE_PATH.of(&[name]);
-    recorder.always(path.clone(), &LineStrips3D::update_fields().with_colors([color]).with_radii([0.0032]))?;
+    recorder.always(path.clone(), &LineStrips3D::update_fields().with_colors([color]).with_radii([0.0032 * camera.share as f32]))?;
     recorder.every_step(path, pieces(records)?)?;
     for (axis, axis_name) in AXES.iter().enumerate() {
         let entity = BESIDE_MOTION.of(&[axis_name, name]);

@@ -21,7 +21,7 @@ const EYES_FROM_TARGET_M: [Vector3<f64>; 6] = [
 
 /// These distances are for work of this size (m); smaller work is seen from nearer, down to a share of them.
 const SIZE_M: f64 = 0.75;
-const NEAREST_SHARE: f64 = 0.6;
+const NEAREST_SHARE: f64 = 0.3;
 
 /// From what the camera looks at to words beside the work: to the right and upwards, as shares of the distance from the eye. Seen from above, the
 /// arm is there, and words are below the work. Then from one line of words to the next above it.
@@ -40,6 +40,8 @@ const AROUND_M: f64 = 0.1;
 pub(super) struct Camera {
     pub eye: Vector3<f64>,
     pub target: Vector3<f64>,
+    /// How far it is from the work, as a share of its distance from large work: what is not part of the scene is drawn so much smaller.
+    pub share: f64,
 }
 
 impl Camera {
@@ -60,7 +62,7 @@ impl Camera {
         let all: usize = points.iter().map(Vec::len).sum();
         let seen = eyes.iter().find(|eye| 4 * hidden(eye) <= all);
         let eye = seen.or_else(|| eyes.iter().min_by_key(|eye| hidden(eye))).copied().unwrap_or(eyes[0]);
-        Self { eye, target }
+        Self { eye, target, share }
     }
 
     /// What is at the right of the picture (world).
@@ -131,7 +133,7 @@ mod tests {
         let side = [([1.1, 0.7, 0.3], [0.0; 3]), ([-0.4, 1.3, 0.5], [0.2, 0.1, 0.0])].map(|eye| (eye, WORDS));
         let above = [([0.3, -0.2, 2.0], [0.4, 0.1, 0.1]), ([0.45, 0.75, 1.05], [0.0; 3])].map(|eye| (eye, WORDS_FROM_ABOVE));
         for ((eye, target), place) in side.into_iter().chain(above) {
-            let camera = Camera { eye: eye.into(), target: target.into() };
+            let camera = Camera { eye: eye.into(), target: target.into(), share: 1.0 };
             let view = nalgebra::Isometry3::look_at_rh(&camera.eye.into(), &camera.target.into(), &Vector3::z());
             let distance = (camera.target - camera.eye).norm();
             for line in 0..4 {

@@ -3,12 +3,14 @@
 use rerun::blueprint::components::PlayState;
 use rerun::{RecordingStream, ViewCoordinates};
 
+use super::arrow::Arrow;
 use super::axis_range::Ranges;
 use super::camera::Camera;
 use super::entity_path::WORLD;
 use super::force_figure::Told;
 use super::layout::Shown;
 use super::recorder::{Fault, Recorder};
+use super::teaching_figure::Lessons;
 use super::workplace::Workplace;
 use super::{
     baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,
@@ -48,7 +50,7 @@ impl Chapters<'_> {
         let shown = Shown {
             camera: self.camera(),
             floor_m: self.floor_m(robot),
-            way_m: self.work.size,
+            way_m: self.work.way,
             taught,
             baseline: self.compares(),
             beside: self.beside,
@@ -61,26 +63,29 @@ impl Chapters<'_> {
 
     /// How the demonstrations were taught.
     pub fn lessons(&self, robot: &RobotModel, lessons: &[LessonRecord]) -> Result<(), Fault> {
-        teaching_figure::log_lessons(&self.recorder(&[]), self.experiment, robot, lessons)
+        let told = Lessons { lessons, number: 0, first: true, camera: self.camera() };
+        teaching_figure::log_lessons(&self.recorder(&[]), self.experiment, robot, &told)
     }
 
-    /// How number `number` of them was taught; `begun` tells whether others have been told.
-    pub fn lesson(&self, robot: &RobotModel, (number, lesson): (usize, &LessonRecord), begun: bool) -> Result<(), Fault> {
-        let recorder = if begun { self.recorder(&[]).continues() } else { self.recorder(&[]) };
-        teaching_figure::log_from(&recorder, self.experiment, robot, (number, std::slice::from_ref(lesson)))
+    /// How number `number` of them was taught; `earliest` is the first one of those that have been told.
+    pub fn lesson(&self, robot: &RobotModel, (number, lesson): (usize, &LessonRecord), earliest: Option<usize>) -> Result<(), Fault> {
+        let recorder = if earliest.is_some() { self.recorder(&[]).continues() } else { self.recorder(&[]) };
+        let first = earliest.is_none_or(|earliest| number < earliest);
+        let told = Lessons { lessons: std::slice::from_ref(lesson), number, first, camera: self.camera() };
+        teaching_figure::log_lessons(&recorder, self.experiment, robot, &told)
     }
 
     /// What is known before the execution: demonstrations, their replays, skill and plan.
     pub fn skill(&self, outcome: &RunOutcome) -> Result<(), Fault> {
-        let recorder = self.recorder(&[]);
+        let (recorder, camera) = (self.recorder(&[]), self.camera());
         recorder.always(WORLD.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
         guide::log_guide(&recorder, self.experiment, outcome)?;
-        replay_figure::log_replays(&recorder, &outcome.dataset)?;
-        paths::log_known(&recorder, outcome, self.duration_s)?;
+        replay_figure::log_replays(&recorder, &outcome.dataset, Arrow::seen_by(&camera))?;
+        paths::log_known(&recorder, outcome, (self.duration_s, &camera))?;
         if self.compares() {
-            baseline::log_baseline(&recorder, self.experiment, outcome)?;
+            baseline::log_baseline(&recorder, self.experiment, outcome, &camera)?;
         }
-        state_figure::log_states(&recorder, self.experiment, outcome, self.duration_s)?;
+        state_figure::log_states(&recorder, self.experiment, outcome, (self.duration_s, &camera))?;
         forcing_figure::log_forcing(&recorder, self.experiment, outcome, self.duration_s)
     }
 
@@ -89,12 +94,13 @@ impl Chapters<'_> {
         // What changes from one step to the next needs both.
         let records = &outcome.steps[from.saturating_sub(1)..];
         let recorder = if from == 0 { self.recorder(records) } else { self.recorder(records).continues() };
+        let camera = self.camera();
         robot_figure::log_robot(&recorder, &outcome.robot, records)?;
         scene_figure::log_objects(&recorder, self.experiment, records)?;
-        paths::log_executed(&recorder, records)?;
-        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, self.camera().words(0)))?;
+        paths::log_executed(&recorder, records, &camera)?;
+        state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, &camera))?;
         let told = Told { expected: outcome.skill.force.is_some(), person: self.experiment.execution.help != Help::None };
-        force_figure::log_forces(&recorder, records, told, &self.camera().right())?;
+        force_figure::log_forces(&recorder, records, told, &camera)?;
         lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
@@ -108,7 +114,7 @@ impl Chapters<'_> {
             beside::log_colors(&self.recorder(&[]), self.beside, outcome.skill.force.is_some())?;
         }
         for (index, one) in self.beside.iter().enumerate() {
-            beside::log_beside(&self.recorder(&one.outcome.steps), one, index)?;
+            beside::log_beside(&self.recorder(&one.outcome.steps), one, index, &self.camera())?;
         }
         Ok(())
     }

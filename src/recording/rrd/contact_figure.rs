@@ -19,7 +19,7 @@ pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome, camera: &C
     let lines = lines(&near.iter().map(|clearance| clearance.time_s).collect::<Vec<f64>>());
     for (clearance, line_of_words) in near.iter().zip(lines) {
         let entity = NEAREST.of(&[&clearance.b]);
-        let look = LineStrips3D::update_fields().with_colors([palette::TOUCH]).with_radii([0.003]);
+        let look = LineStrips3D::update_fields().with_colors([palette::TOUCH]).with_radii([0.003 * camera.share as f32]);
         recorder.always(entity.clone(), &look)?;
         let line = [convert::vector(&clearance.point_a.coords), convert::vector(&clearance.point_b.coords)];
         let times = [(clearance.time_s - SHOWN_S[0]).max(0.0), clearance.time_s + SHOWN_S[1]];
@@ -31,7 +31,7 @@ pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome, camera: &C
         let words = Points3D::update_fields().with_positions([convert::vector(&camera.words(line_of_words))]).with_labels([text]);
         recorder.at_times(label, &times, words.columns([1, 0])?)?;
     }
-    log_touches(recorder, &outcome.collisions)
+    log_touches(recorder, &outcome.collisions, camera)
 }
 
 /// Lines of words for what is shown around some moments (s): the lowest ones above line 0 in which no two are shown at one time.
@@ -47,8 +47,8 @@ fn lines(moments_s: &[f64]) -> Vec<usize> {
 }
 
 /// Contacts are points where and when they were deepest.
-fn log_touches(recorder: &Recorder, contacts: &[ContactEpisode]) -> Result<(), Fault> {
-    recorder.always(CONTACT.path(), &Points3D::update_fields().with_radii([0.008]))?;
+fn log_touches(recorder: &Recorder, contacts: &[ContactEpisode], camera: &Camera) -> Result<(), Fault> {
+    recorder.always(CONTACT.path(), &Points3D::update_fields().with_radii([0.008 * camera.share as f32]))?;
     let shown = |contact: &ContactEpisode| [(contact.deepest_time_s - SHOWN_S[0]).max(0.0), contact.deepest_time_s + SHOWN_S[1]];
     let mut moments: Vec<f64> = contacts.iter().flat_map(shown).collect();
     moments.sort_by(f64::total_cmp);

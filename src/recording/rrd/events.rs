@@ -1,7 +1,7 @@
 //! What happened, in words: one line per event, in the order of time.
 
 use super::entity_path::EVENTS;
-use super::lanes::{CLOSED, beta_in_words, holds};
+use super::lanes::{CLOSED, acting_beta, beta_in_words, holds};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{RunOutcome, StepRecord};
 use crate::world::{NEAR_M, nearest_of_each};
@@ -56,24 +56,27 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
         events.push(note(clearance.time_s, text));
     }
     for contact in outcome.collisions.iter().filter(|contact| !contact.allowed) {
-        let force = if contact.max_force_n.is_nan() { String::new() } else { format!("up to {:.1} N, ", contact.max_force_n) };
-        let text = format!("{} touches {}: {force}{:.1} mm deep", contact.a, contact.b, contact.max_depth_m * 1e3);
+        let text = format!("{} touches {}{}", contact.a, contact.b, hard_and_deep(contact.max_force_n, contact.max_depth_m));
         events.push(Event { time_s: contact.first_time_s, kind: Kind::Fault, text });
     }
     events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
     events
 }
 
+/// Depths below this (m) would be written as nothing.
+const LEAST_DEPTH_M: f64 = 0.05e-3;
+
+/// How hard something touches (N), and how deep (m), as far as it is known.
+fn hard_and_deep(force_n: f64, depth_m: f64) -> String {
+    let force = (!force_n.is_nan()).then(|| format!("up to {force_n:.1} N"));
+    let depth = (depth_m >= LEAST_DEPTH_M).then(|| format!("{:.1} mm deep", depth_m * 1e3));
+    let known: Vec<String> = force.into_iter().chain(depth).collect();
+    if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) }
+}
+
 /// What differs between two neighbouring records.
 fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
     let mut texts = Vec::new();
-    if before.beta != now.beta {
-        texts.push(match beta_in_words(now.beta) {
-            "complies" => format!("the arm complies from here (state {})", now.state),
-            "stiff" => format!("the arm is stiff from here (state {})", now.state),
-            other => format!("the arm {other} from here (state {})", now.state),
-        });
-    }
     match (before.gripper_command < CLOSED, now.gripper_command < CLOSED) {
         (false, true) => texts.push("the gripper closes".into()),
         (true, false) => texts.push("the gripper opens".into()),
@@ -85,6 +88,13 @@ fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
     if before.time_fraction < 1.0 && now.time_fraction >= 1.0 {
         texts.push("the skill ends".into());
     }
+    if acting_beta(before) != acting_beta(now) {
+        texts.push(match beta_in_words(acting_beta(now)) {
+            "complies" => format!("the arm complies from here (state {})", now.state),
+            "stiff" => format!("the arm is stiff from here (state {})", now.state),
+            other => format!("the arm {other} from here (state {})", now.state),
+        });
+    }
     texts
 }
 
@@ -92,4 +102,17 @@ fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
 fn peak_of_hold(records: &[StepRecord], step: u64) -> f64 {
     let until = records.iter().rev().skip_while(|record| record.step > step);
     until.take_while(|record| holds(record)).map(|record| record.human.force.norm()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hard_and_deep;
+
+    #[test]
+    fn a_depth_that_would_be_written_as_nothing_is_not_written() {
+        assert_eq!(hard_and_deep(401.3, 0.04e-3), ": up to 401.3 N");
+        assert_eq!(hard_and_deep(243.0, 2.4e-3), ": up to 243.0 N, 2.4 mm deep");
+        assert_eq!(hard_and_deep(f64::NAN, 0.06e-3), ": 0.1 mm deep");
+        assert_eq!(hard_and_deep(f64::NAN, 0.0), "");
+    }
 }

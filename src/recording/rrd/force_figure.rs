@@ -3,6 +3,8 @@
 use nalgebra::{Point3, Vector3};
 use rerun::{Arrows3D, Color, EntityPath, Scalars, TextDocument};
 
+use super::arrow::{Arrow, SMALLEST_N};
+use super::camera::Camera;
 use super::convert;
 use super::entity_path::{
     ACTIVATION, BETA, COUPLING, EXPECTED, EXPECTED_ARROW, EXTERNAL, Entity, FORCE_COLORS, GRIPPER_COMMAND, GRIPPER_OPENING, PERSON,
@@ -14,14 +16,8 @@ use super::paths::{AXES, style};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::StepRecord;
 
-/// Length of an arrow per newton (m/N): 15 N, the most that a helping person pushes with, are 30 cm.
-pub(super) const ARROW_M_PER_N: f64 = 0.02;
-
 /// The person's arrow starts this far from the point where the force acts (m): at the surface of the arm, in which it could not be seen.
 const ARM_RADIUS_M: f64 = 0.07;
-
-/// Forces below this are not drawn as arrows (N).
-pub(super) const SMALLEST_ARROW_N: f64 = 0.25;
 
 /// Colours of the three axes, as rerun and most robot tools draw them.
 const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLANNED];
@@ -40,18 +36,15 @@ pub(super) struct Told {
     pub person: bool,
 }
 
-/// The arrow of the expected force starts so far to the right of the measured one (m): else the one that is right would hide the other.
-const ASIDE_M: f64 = 0.025;
-
-/// Logs all forces and what answers them, seen with `right` at the right.
-pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], told: Told, right: &Vector3<f64>) -> Result<(), Fault> {
-    let aside = right * ASIDE_M;
+/// Logs all forces and what answers them, as a camera sees them.
+pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], told: Told, camera: &Camera) -> Result<(), Fault> {
+    let arrow = Arrow::seen_by(camera);
     let tool = |r: &StepRecord| Point3::from(r.tool.translation.vector);
     let measured = |r: &StepRecord| Vector3::from(r.wrench.fixed_rows::<3>(0));
-    let arrows = Arrows { recorder, records };
-    arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (tool(r), measured(r)))?;
+    let arrows = Arrows { recorder, records, arrow };
+    arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (tool(r) + arrow.beside(1), measured(r)))?;
     if told.expected {
-        arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r) + aside, r.expected_force))?;
+        arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r) + arrow.beside(2), r.expected_force))?;
     }
     arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point + to_surface(&r.human.force), r.human.force))?;
     let colors = [(MEASURED_COLOR, true), (MODEL_COLORS, told.expected), (PERSON_COLOR, told.person)];
@@ -115,19 +108,20 @@ impl Plot<'_> {
 struct Arrows<'a> {
     recorder: &'a Recorder,
     records: &'a [StepRecord],
+    arrow: Arrow,
 }
 
 impl Arrows<'_> {
     /// One arrow per record, none where the force is too small to see.
     fn log(&self, entity: &Entity, color: Color, force: impl Fn(&StepRecord) -> (Point3<f64>, Vector3<f64>)) -> Result<(), Fault> {
         let forces: Vec<_> = self.records.iter().map(force).collect();
-        let visible = |(_, force): &(Point3<f64>, Vector3<f64>)| force.norm() >= SMALLEST_ARROW_N;
+        let visible = |(_, force): &(Point3<f64>, Vector3<f64>)| force.norm() >= SMALLEST_N;
         let drawn = || forces.iter().filter(|arrow| visible(arrow));
         let arrows = Arrows3D::update_fields()
-            .with_vectors(drawn().map(|(_, force)| convert::vector(&(force * ARROW_M_PER_N))))
+            .with_vectors(drawn().map(|(_, force)| convert::vector(&self.arrow.of(force))))
             .with_origins(drawn().map(|(point, _)| convert::vector(&point.coords)));
         let lengths: Vec<usize> = forces.iter().map(|arrow| usize::from(visible(arrow))).collect();
-        self.recorder.always(entity.path(), &Arrows3D::update_fields().with_colors([color]).with_radii([0.008]))?;
+        self.recorder.always(entity.path(), &self.arrow.look(color))?;
         self.recorder.every_step(entity.path(), arrows.columns(lengths)?)
     }
 }

@@ -15,12 +15,12 @@ pub(super) fn log_guide(recorder: &Recorder, experiment: &Experiment, outcome: &
 fn page(experiment: &Experiment, outcome: &RunOutcome) -> String {
     let setting: Vec<String> = experiment.parameters.0.iter().map(|(name, value)| format!("{name} = {value}")).collect();
     let mut page = format!(
-        "# {}\n\nSeed {}; {}; {} demonstrations.\n\n{READING}\n{}{MORE}\n\n## Timelines\n\n",
+        "{READING}\n{}{MORE}\n\nThis is `{}`, seed {}; {}; {} demonstrations.\n\n## Timelines\n\n",
+        beside::in_words(&outcome.beside),
         experiment.name,
         experiment.seed,
         setting.join(", "),
         outcome.dataset.demonstrations.len(),
-        beside::in_words(&outcome.beside),
     );
     page.extend(TIMELINES.iter().map(|timeline| format!("- `{}`: {}\n", timeline.name, timeline.meaning)));
     page.push_str("\n## Entities\n\n");
@@ -40,6 +40,8 @@ each state, at two standard deviations.
 
 const MORE: &str = "\
 - dark blue arrow and line: force measured at the tool; yellow: force that the skill expects; vermilion: force of the person
+- an arrow is as long as its force is large up to 15 N; a larger force is drawn little longer, and the plots say how large it is. Measured and
+  expected forces act at the tool, and are drawn beside it
 - the ellipsoid with the thick lines is that of the active state, which is also named beside the scene
 - the plot above the lanes says why: a state complies when the demonstrations disagree in it by more than the threshold sigma
 - white points touch and may, red ones must not; a white line is a smallest distance, while it happens

@@ -1,4 +1,4 @@
-//! The layout that a recording opens with: a page for the execution, one for the teaching, one for the replay.
+//! The layout that a recording opens with: a page for the execution, one for the teaching, one for the replay, one that says how to read them.
 
 use nalgebra::Vector3;
 use rerun::blueprint::components::{PanelState, PlayState};
@@ -12,7 +12,8 @@ use super::beside;
 use super::blueprint_property::Properties;
 use super::camera::Camera;
 use super::entity_path::{
-    BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EXECUTED_PATH, Entity, FORCE_COLORS, REPLAY_NAME, SIM_TIME, TEACHING_NAME, TEACHING_PATH,
+    BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EXECUTED_PATH, Entity, FORCE_COLORS, REPLAY_NAME, REPLAY_TIME, SIM_TIME, TEACHING_NAME,
+    TEACHING_PATH, TEACHING_TIME, Timeline,
 };
 use super::paths::AXES;
 use super::recorder::Fault;
@@ -50,7 +51,7 @@ pub(super) struct Shown<'a> {
 /// The layout with the properties of its views: one page for the execution, one for what came before it.
 pub(super) fn layout(shown: &Shown<'_>, ranges: &Ranges, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
     let mut views = Views { ranges: ranges.clone(), ..Views::default() };
-    let execution = execution(&mut views, shown)?.with_name("Execution");
+    let execution = execution(&mut views, shown)?.with_name("Execution (timeline sim_time)");
     let teaching = teaching(&mut views, shown)?.with_name("Teaching (timeline teaching_time)");
     let replay = replay(&mut views)?.with_name("Replay (timeline replay_time)");
     let mut pages: Vec<ContainerLike> = vec![execution.into()];
@@ -58,6 +59,8 @@ pub(super) fn layout(shown: &Shown<'_>, ranges: &Ranges, play: PlayState) -> Res
         pages.push(teaching.into());
     }
     pages.push(replay.into());
+    // Beside the events there was room for two lines of it.
+    pages.push(Horizontal::new([TextDocumentView::new("How to read").with_origin("/guide").into()]).with_name("How to read").into());
     let blueprint = Blueprint::new(Tabs::new(pages))
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
@@ -84,10 +87,10 @@ fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> 
         right.push(views.low_plot(title, "plots/spread")?.into());
         shares.push(0.7);
     }
-    right.push(StateTimelineView::new("Compliance, gripper, person, state").with_origin("/lanes").into());
+    let lanes = if shown.states.is_some() { "Compliance, gripper, person, state" } else { "Compliance, gripper, person" };
+    right.push(StateTimelineView::new(lanes).with_origin("/lanes").into());
     shares.push(1.35);
-    let words = Tabs::new([views.events()?.into(), TextDocumentView::new("How to read").with_origin("/guide").into()]);
-    let left = Vertical::new([scene.into(), words.into()]).with_row_shares(vec![5.0, 1.0]);
+    let left = Vertical::new([scene.into(), views.events()?.into()]).with_row_shares(vec![5.0, 1.0]);
     Ok(Horizontal::new([left.into(), Vertical::new(right).with_row_shares(shares).into()]).with_column_shares(vec![1.25, 1.0]))
 }
 
@@ -148,7 +151,8 @@ fn compared(views: &mut Views, beside: &[Beside]) -> Result<Vec<ContainerLike>, 
 
 /// The lessons: the scene at the left; motion, person and gripper at the right.
 fn teaching(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> {
-    let scene = views.scene("Teaching: a person (vermilion) leads the weightless arm", "/teaching", [TEACHING_PATH.path()], shown)?;
+    let title = format!("A person (vermilion) leads the weightless arm. {}", choose(TEACHING_TIME));
+    let scene = views.scene(&title, "/teaching", [TEACHING_PATH.path()], shown)?;
     let [first, second, _] = axes(&shown.way_m);
     let mut taught = |axis: &str| views.coordinate(&format!("Taught {axis} (m)"), &format!("teaching_plots/motion/{axis}"));
     let right: [ContainerLike; 5] = [
@@ -169,10 +173,15 @@ fn demonstration(lane: &str, name: &str) -> Horizontal {
     Horizontal::new([number.into(), name.into()]).with_column_shares(vec![1.6, 1.0])
 }
 
+/// What a page says that is empty on all timelines but one.
+fn choose(timeline: Timeline) -> String {
+    format!("Empty? Choose {} at the bottom left", timeline.name)
+}
+
 /// The replays: what the arm felt, per axis.
 fn replay(views: &mut Views) -> Result<Vertical, Fault> {
     let plots: [ContainerLike; 4] = [
-        views.high_plot("Measured force x (N)", "replay_plots/force/x")?.into(),
+        views.high_plot(&format!("Measured force x (N). {}", choose(REPLAY_TIME)), "replay_plots/force/x")?.into(),
         views.high_plot("Measured force y (N)", "replay_plots/force/y")?.into(),
         views.high_plot("Measured force z (N)", "replay_plots/force/z")?.into(),
         demonstration("/replay_lanes", REPLAY_NAME.pattern).into(),

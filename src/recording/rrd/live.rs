@@ -149,7 +149,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
                     chapters.layout(&robot, true, PlayState::Following)?;
                     opened = true;
                 }
-                chapters.lesson(&robot, (number, &lesson), !seen.is_empty())?;
+                chapters.lesson(&robot, (number, &lesson), seen.first().copied())?;
                 // A viewer is told at once, and a file has it if the run is killed.
                 chapters.stream.flush_async()?;
                 seen.insert(number);
@@ -160,7 +160,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
                 opened = true;
                 for (number, lesson) in lessons.iter().enumerate() {
                     if !seen.contains(&number) {
-                        chapters.lesson(&robot, (number, lesson), !seen.is_empty())?;
+                        chapters.lesson(&robot, (number, lesson), seen.first().copied())?;
                         seen.insert(number);
                     }
                 }
@@ -168,7 +168,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
             News::Planned(outcome) => {
                 chapters.duration_s = outcome.plan.duration_s();
                 if !opened {
-                    chapters.work = Workplace::of_plan(&outcome);
+                    chapters.work = Workplace::of_plan(&outcome).with_paths(&outcome);
                     chapters.layout(&outcome.robot, false, PlayState::Following)?;
                 }
                 chapters.skill(&outcome)?;

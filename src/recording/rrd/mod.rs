@@ -1,5 +1,6 @@
 //! The recording for the rerun viewer: the only place that knows rerun.
 
+mod arrow;
 mod axis_range;
 mod baseline;
 mod beside;

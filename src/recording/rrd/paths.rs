@@ -3,10 +3,11 @@
 use nalgebra::{DVector, Vector3};
 use rerun::{Color, LineStrips3D, Scalars, SerializedComponentColumn, SeriesLines};
 
+use super::camera::Camera;
 use super::convert;
 use super::entity_path::{EXECUTED_MOTION, EXECUTED_PATH, PLANNED_MOTION, PLANNED_PATH, TAUGHT_MOTION, TAUGHT_PATH, TOOL};
 use super::palette;
-use super::recorder::{Fault, Recorder};
+use super::recorder::{Fault, Recorder, Since};
 use crate::demonstration::Trajectory;
 use crate::simulation::{RunOutcome, StepRecord};
 
@@ -19,13 +20,13 @@ pub(super) const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 /// Samples of a taught or planned path that are drawn: a piece of 0.1 s of a movement of 28 s.
 const DRAWN_SAMPLES: usize = 280;
 
-/// Logs what was taught and what is planned. `duration_s` is how long the execution of the skill takes.
-pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, duration_s: f64) -> Result<(), Fault> {
+/// Logs what was taught and what is planned, as a camera sees it. `duration_s` is how long the execution of the skill takes.
+pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, camera): (f64, &Camera)) -> Result<(), Fault> {
     for demonstration in &outcome.dataset.demonstrations {
         let path = Path::new(&demonstration.trajectory, duration_s);
         let name = demonstration.name.as_str();
         if let Some(points) = path.points() {
-            recorder.always(TAUGHT_PATH.of(&[name]), &strip(points, palette::TAUGHT, 0.0012))?;
+            recorder.from(Since::Start, TAUGHT_PATH.of(&[name]), &strip(points, palette::TAUGHT, TAUGHT_M, camera))?;
         }
         for (axis, axis_name) in AXES.iter().enumerate() {
             let entity = TAUGHT_MOTION.of(&[axis_name, name]);
@@ -34,7 +35,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, duration_s: f
     }
     let planned = Path::new(&outcome.plan, outcome.plan.duration_s());
     if let Some(points) = planned.points() {
-        recorder.always(PLANNED_PATH.path(), &strip(points, palette::PLANNED, PLANNED_M))?;
+        recorder.from(Since::Start, PLANNED_PATH.path(), &strip(points, palette::PLANNED, PLANNED_M, camera))?;
     }
     for (axis, name) in AXES.iter().enumerate() {
         planned.log(recorder, &PLANNED_MOTION.of(&[name]), axis, &style("planned", palette::PLANNED, 2.0))?;
@@ -42,17 +43,18 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, duration_s: f
     Ok(())
 }
 
-/// Radius of the planned and of the executed path (m). Lines in one place show through each other in the viewer: the edges of the executed one
+/// Radius of the taught, the planned and the executed path (m), seen from far. Lines in one place show through each other in the viewer: the edges of the executed one
 /// are seen in any case.
+const TAUGHT_M: f32 = 0.0012;
 const PLANNED_M: f32 = 0.0025;
-const EXECUTED_M: f32 = 0.005;
+pub(super) const EXECUTED_M: f32 = 0.005;
 
-/// Logs where the tool went.
-pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord]) -> Result<(), Fault> {
+/// Logs where the tool went, as a camera sees it.
+pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord], camera: &Camera) -> Result<(), Fault> {
     let tools: Vec<_> = records.iter().map(|record| record.tool).collect();
     recorder.poses(TOOL.path(), &tools)?;
     recorder.every_step(EXECUTED_PATH.path(), pieces(records)?)?;
-    let look = LineStrips3D::update_fields().with_colors([palette::EXECUTED]).with_radii([EXECUTED_M]);
+    let look = LineStrips3D::update_fields().with_colors([palette::EXECUTED]).with_radii([EXECUTED_M * camera.share as f32]);
     recorder.always(EXECUTED_PATH.path(), &look)?;
     for (axis, name) in AXES.iter().enumerate() {
         let entity = EXECUTED_MOTION.of(&[name]);
@@ -75,8 +77,9 @@ pub(super) fn style(name: &str, color: Color, width: f32) -> SeriesLines {
     SeriesLines::new().with_names([name]).with_colors([color]).with_widths([width])
 }
 
-fn strip(points: Vec<[f32; 3]>, color: Color, radius_m: f32) -> LineStrips3D {
-    LineStrips3D::new([points]).with_colors([color]).with_radii([radius_m])
+/// A path, so thick (m) for a camera that is far, and as thick in the picture for one that is near.
+pub(super) fn strip(points: Vec<[f32; 3]>, color: Color, radius_m: f32, camera: &Camera) -> LineStrips3D {
+    LineStrips3D::new([points]).with_colors([color]).with_radii([radius_m * camera.share as f32])
 }
 
 /// A thinned trajectory, its time stretched to a duration.

@@ -12,6 +12,7 @@ pub const PHASE_INPUT: Timeline = Timeline {
 entities! {
     MAP "map" "turns the plane up: y points up in the view, as in the data, and not down, as in pictures"
     GRID "map/grid" "lines at whole metres"
+    GRID_NUMBERS "map/grid/numbers" "coordinates of some of them (m)"
     OBSTACLES "map/obstacles" "every obstacle that is passed, of several each in a colour of its own"
     DEMONSTRATIONS "map/demonstrations" "paths of the demonstrations"
     GOALS "map/goals" "where movements should end: dark where it was taught, yellow where not"

@@ -51,7 +51,7 @@ fn color(curve: &ForcingCurve, method: Method) -> Color {
     match curve.chain {
         Some(chain) => palette::rgb(chain_color(chain)),
         None if curve.taught => palette::light(palette::rgb(method.color())),
-        None => palette::PERSON,
+        None => palette::rgb(crate::palette::MAGENTA),
     }
 }
 

@@ -9,7 +9,8 @@ use crate::planar::{Case, PlanarOutcome, Transitions, obstacles};
 
 /// Logs the page.
 pub(super) fn log_guide(recorder: &PlanarRecorder, name: &str, seed: u64, outcome: &PlanarOutcome) -> Result<(), Fault> {
-    let mut page = format!("# {name}\n\nSeed {seed}; {} demonstrations.\n\n{}{READING}\n\n", outcome.demonstrations.len(), widths(outcome));
+    let told = format!("This is `{name}`, seed {seed}; {} demonstrations.", outcome.demonstrations.len());
+    let mut page = format!("{}{READING}\n\n{told}\n\n", widths(outcome));
     page.push_str("## Clearances\n\n");
     page.extend(outcome.cases.iter().map(clearances));
     page.extend(outcome.transitions.iter().map(shares));
@@ -46,9 +47,9 @@ fn shares(transitions: &Transitions) -> String {
 
 const READING: &str = "\
 Grey paths: a person showed how to pass an elliptic obstacle. Coloured paths: what each method made of it, thin for situations that were
-demonstrated, thick for others. A large vermilion point is a collision, at the deepest point. Dots move along the paths with the cursor over
-the phase. Lines of the grid are 1 m apart.
+demonstrated, thick for others. Movements should end at the dark points, which were taught, and the yellow ones, which were not. A large vermilion
+point is a collision, at the deepest point. Dots move along the paths with the cursor over the phase. Lines of the grid are 1 m apart.
 
 Plots show forcing terms over the phase: grey what the demonstrations ask for (4), light lines what the model makes of taught situations,
-vermilion what it makes of others; each chain has a colour of its own, and each width a page, or demonstrated and
+magenta what it makes of others; each chain has a colour of its own, and each width a page, or demonstrated and
 new situations one each. Ellipses are the states of the model at two standard deviations.";

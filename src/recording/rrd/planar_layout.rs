@@ -12,7 +12,7 @@ use rerun::external::re_sdk_types::blueprint::archetypes::{Background, PlotLegen
 use super::blueprint_property::Properties;
 use super::planar_entity::{CURVE, DEMONSTRATED, GAUSSIANS, PHASE_INPUT};
 use super::planar_forcing::{AXES, recorded, situation};
-use super::planar_map::bounds;
+use super::planar_map::{bounds, with_numbers};
 use super::planar_recorder::ticks;
 use super::recorder::Fault;
 use super::{palette, planar_graph};
@@ -20,7 +20,7 @@ use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, named};
 
 /// The layout with the properties of its views.
 pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties), Fault> {
-    let mut views = Views { properties: Properties::default(), bounds: bounds(outcome), inputs: inputs(outcome) };
+    let mut views = Views { properties: Properties::default(), bounds: with_numbers(bounds(outcome)), inputs: inputs(outcome) };
     let mut maps: Vec<ContainerLike> = Vec::new();
     for guidance in outcome.guidances() {
         for method in outcome.methods_with(guidance) {
@@ -40,7 +40,7 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
         forcing.push(if pages.len() == 1 { pages.remove(0) } else { Tabs::new(pages).with_name(name).into() });
     }
     let mut right: Vec<ContainerLike> = vec![Tabs::new(forcing).into()];
-    let mut shares = vec![2.0];
+    let mut shares = vec![2.4];
     if let Some(transitions) = &outcome.transitions {
         let graph = GraphView::new("States and chains, the side not told").with_origin("/transitions");
         right.push(graph.with_visual_bounds(&VisualBounds2D::new(planar_graph::bounds(transitions))).into());
@@ -48,7 +48,7 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
     }
     // A new reader reads first: what says how to is never behind something else.
     right.push(TextDocumentView::new("How to read").with_origin("/guide").into());
-    shares.push(0.85);
+    shares.push(1.1);
     let left = Grid::new(maps).with_grid_columns(columns as u32);
     let right = Vertical::new(right).with_row_shares(shares);
     let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.2, 1.0]))
@@ -72,7 +72,7 @@ struct Views {
 impl Views {
     fn map(&mut self, guidance: Guidance, method: Method) -> Result<View, Fault> {
         let own = format!("/map/movements/{}/{}/**", guidance.key(), method.key());
-        let shared = ["/map", "/map/grid", "/map/obstacles", "/map/demonstrations", "/map/goals"].map(str::to_owned);
+        let shared = ["/map", "/map/grid/**", "/map/obstacles", "/map/demonstrations", "/map/goals"].map(str::to_owned);
         let name = format!("{}{}", method.title(), told(guidance));
         let view = view(Spatial2DView::new(name).with_origin("/").with_contents(shared.into_iter().chain([own])))?;
         let [x, y] = self.bounds;

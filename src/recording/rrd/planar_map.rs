@@ -3,20 +3,27 @@
 use rerun::{Color, LineStrips2D, Points2D, Radius, Transform3D};
 
 use super::palette;
-use super::planar_entity::{COLLISIONS, DEMONSTRATIONS, GOALS, GRID, MAP, OBSTACLES, PLACES, TAUGHT, UNSEEN};
+use super::planar_entity::{COLLISIONS, DEMONSTRATIONS, GOALS, GRID, GRID_NUMBERS, MAP, OBSTACLES, PLACES, TAUGHT, UNSEEN};
 use super::planar_recorder::PlanarRecorder;
 use super::recorder::Fault;
 use crate::math::ellipse_outline;
 use crate::planar::{Case, Guidance, Method, Movement, Obstacle, PlanarOutcome, obstacles};
 
-/// Lines at whole metres, on white.
-const GRID_COLOR: Color = palette::rgb(crate::palette::Rgb::new(228, 228, 228));
+/// Lines at whole metres, on white, behind everything.
+const GRID_COLOR: Color = palette::rgb(crate::palette::Rgb::new(205, 205, 205));
+/// Widths of lines on the screen (pt): of the grid, of what was taught and of what was not. Thinner ones break into dots.
+const GRID_PT: f32 = 1.2;
+const TAUGHT_PT: f32 = 1.3;
+const UNSEEN_PT: f32 = 2.4;
+/// So many metres at most are written along an axis.
+const MOST_NUMBERS: usize = 5;
 
 /// Logs everything in the plane.
 pub(super) fn log_map(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Result<(), Fault> {
     let up = Transform3D::from_mat3x3([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]);
     recorder.always(MAP.path(), &up)?;
-    recorder.always(GRID.path(), &strips(grid(bounds(outcome)), GRID_COLOR, 0.5))?;
+    recorder.always(GRID.path(), &strips(grid(bounds(outcome)), GRID_COLOR, GRID_PT))?;
+    numbers(recorder, bounds(outcome))?;
     let obstacles = obstacles(&outcome.cases);
     let outline = |one: &Obstacle| closed(ellipse_outline(one.ellipse.centre_m, one.ellipse.half_axes_m));
     let outlines = strips(obstacles.iter().map(outline).collect(), palette::IDLE, 1.5);
@@ -26,7 +33,7 @@ pub(super) fn log_map(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Res
         &outlines.with_colors(colors).with_labels(obstacles.iter().map(Obstacle::name)).with_show_labels(false),
     )?;
     let shown = outcome.demonstrations.iter().map(|shown| points(&shown.path_m)).collect();
-    recorder.always(DEMONSTRATIONS.path(), &strips(shown, palette::TAUGHT, 0.7))?;
+    recorder.always(DEMONSTRATIONS.path(), &strips(shown, palette::TAUGHT, TAUGHT_PT))?;
     goals(recorder, outcome)?;
     for guidance in outcome.guidances() {
         for method in outcome.methods_with(guidance) {
@@ -61,7 +68,7 @@ struct Drawn<'a> {
 impl<'a> Drawn<'a> {
     fn log(&self) -> Result<(), Fault> {
         let names = [self.guidance.key(), self.method.key()];
-        for (entity, taught, width) in [(TAUGHT, true, 0.9), (UNSEEN, false, 2.0)] {
+        for (entity, taught, width) in [(TAUGHT, true, TAUGHT_PT), (UNSEEN, false, UNSEEN_PT)] {
             let of_kind: Vec<_> = self.movements().filter(|(case, _)| case.taught == taught).collect();
             let labels = of_kind.iter().map(|(case, _)| case.name.clone());
             let paths = strips(of_kind.iter().map(|(_, movement)| points(&movement.path_m)).collect(), palette::IDLE, width);
@@ -121,9 +128,38 @@ fn goals(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Result<(), Fault
     recorder.always(GOALS.path(), &Points2D::new(points(&places)).with_colors(colors).with_radii([Radius::new_ui_points(4.0)]))
 }
 
+/// Whole metres within bounds (m).
+fn whole([low, high]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
+    low.ceil() as i64..=high.floor() as i64
+}
+
+/// What is seen of a plane with these bounds (m): at the left and below there is room for numbers, which would lie on paths.
+pub(super) fn with_numbers([x, y]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let lower = |[low, high]: [f64; 2], share: f64| [low - share * (high - low), high];
+    [lower(x, 0.14), lower(y, 0.06)]
+}
+
+/// Some of the whole metres within bounds (m), as numbers at the left and below.
+fn numbers(recorder: &PlanarRecorder, [x, y]: [[f64; 2]; 2]) -> Result<(), Fault> {
+    let few = |bounds: [f64; 2]| {
+        let of = |step: i64| whole(bounds).filter(move |at| at % step == 0).collect::<Vec<_>>();
+        [1, 2, 5, 10, 20, 50].map(of).into_iter().find(|some| some.len() <= MOST_NUMBERS).unwrap_or_default()
+    };
+    let [[left, _], _] = with_numbers([x, y]);
+    let beside = few(y).into_iter().map(|at| ([(left + x[0]) / 2.0, at as f64], at));
+    // The viewer writes below the place.
+    let below = few(x).into_iter().map(|at| ([at as f64, y[0]], at));
+    let (places, metres): (Vec<[f64; 2]>, Vec<i64>) = below.chain(beside).unzip();
+    let labels = Points2D::new(points(&places))
+        .with_labels(metres.iter().map(|at| format!("{at} m")))
+        .with_colors([palette::IDLE])
+        .with_radii([Radius::new_ui_points(0.0)])
+        .with_show_labels(true);
+    recorder.always(GRID_NUMBERS.path(), &labels)
+}
+
 /// Lines at whole metres within bounds (m).
 fn grid([x, y]: [[f64; 2]; 2]) -> Vec<Vec<[f32; 2]>> {
-    let whole = |[low, high]: [f64; 2]| low.ceil() as i64..=high.floor() as i64;
     let upright = whole(x).map(|at| vec![point(&[at as f64, y[0]]), point(&[at as f64, y[1]])]);
     let level = whole(y).map(|at| vec![point(&[x[0], at as f64]), point(&[x[1], at as f64])]);
     upright.chain(level).collect()

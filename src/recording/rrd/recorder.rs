@@ -1,5 +1,7 @@
 //! The stream into a recording file: everything is sent in columns, so the file is small and its content does not depend on any clock.
 
+use std::time::Duration;
+
 use nalgebra::Isometry3;
 use rerun::{AsComponents, EntityPath, RecordingStream, SerializedComponentColumn, TimeColumn};
 
@@ -10,6 +12,15 @@ use crate::simulation::StepRecord;
 
 /// What goes wrong while a file is written, before its path is added.
 pub(super) type Fault = Box<dyn std::error::Error + Send + Sync>;
+
+/// From when on something is seen: on the timelines of one page alone, so that the page is empty on all others.
+#[derive(Clone, Copy)]
+pub(super) enum Since {
+    /// From the start of the execution.
+    Start,
+    /// From a time (s) of another timeline on.
+    On(Timeline, f64),
+}
 
 /// Writes entities of one run: of all of it, or of some of its steps.
 pub(super) struct Recorder {
@@ -56,10 +67,19 @@ impl Recorder {
         Ok(self.stream.log_static(entity, what)?)
     }
 
-    /// Logs what holds from `time_s` (s) of one timeline on, or at all times without one.
-    pub(super) fn from(&self, when: Option<(Timeline, f64)>, entity: EntityPath, what: &dyn AsComponents) -> Result<(), Fault> {
-        let Some((timeline, time_s)) = when else { return self.always(entity, what) };
-        self.stream.set_time(timeline.name, std::time::Duration::from_nanos(nanoseconds(time_s).unsigned_abs()));
+    /// Logs what is seen from some time on. What holds from the start of the execution has been said if this recorder goes on.
+    pub(super) fn from(&self, when: Since, entity: EntityPath, what: &dyn AsComponents) -> Result<(), Fault> {
+        let at = |timeline: Timeline, ns: i64| self.stream.set_time(timeline.name, Duration::from_nanos(ns.unsigned_abs()));
+        match when {
+            Since::Start if self.continues => return Ok(()),
+            Since::Start => {
+                let [time, step, phase] = self.steps.each_ref().map(|steps| steps.first().copied().unwrap_or(0));
+                at(SIM_TIME, time);
+                at(PHASE, phase);
+                self.stream.set_time_sequence(STEP.name, step);
+            }
+            Since::On(timeline, time_s) => at(timeline, nanoseconds(time_s)),
+        }
         let logged = self.stream.log(entity, what);
         self.stream.reset_time();
         Ok(logged?)

@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use rerun::{Arrows3D, Scalars, StateChange, TextDocument, Transform3D};
 
+use super::arrow::Arrow;
 use super::convert;
 use super::entity_path::{REPLAY_ARROW, REPLAY_FORCE, REPLAY_LANE, REPLAY_NAME, REPLAY_PATH, REPLAY_TIME};
-use super::force_figure::ARROW_M_PER_N;
 use super::palette;
 use super::paths::{AXES, COLUMNS, style};
 use super::recorder::{Fault, Recorder};
@@ -19,7 +19,7 @@ const PAUSE_S: f64 = 1.0;
 const FORCE_COLUMNS: [&str; 3] = ["fx_n", "fy_n", "fz_n"];
 
 /// Logs the wrench of every demonstration along its path; nothing for demonstrations without a place and a force.
-pub(super) fn log_replays(recorder: &Recorder, dataset: &Dataset) -> Result<(), Fault> {
+pub(super) fn log_replays(recorder: &Recorder, dataset: &Dataset, arrow: Arrow) -> Result<(), Fault> {
     let mut film = Film::default();
     dataset.demonstrations.iter().for_each(|demonstration| film.append(&demonstration.name, &demonstration.trajectory));
     if film.times_s.is_empty() {
@@ -27,9 +27,9 @@ pub(super) fn log_replays(recorder: &Recorder, dataset: &Dataset) -> Result<(), 
     }
     let places = Transform3D::update_fields().with_many_translation(film.places.iter().map(convert::vector));
     recorder.on(REPLAY_TIME, REPLAY_PATH.path(), &film.times_s, places.columns_of_unit_batches()?)?;
-    recorder.always(REPLAY_ARROW.path(), &Arrows3D::update_fields().with_colors([palette::MEASURED]).with_radii([0.008]))?;
+    recorder.always(REPLAY_ARROW.path(), &arrow.look(palette::MEASURED))?;
     let arrows = Arrows3D::update_fields()
-        .with_vectors(film.forces.iter().map(|force| convert::vector(&(force * ARROW_M_PER_N))))
+        .with_vectors(film.forces.iter().map(|force| convert::vector(&arrow.of(force))))
         .with_origins(film.places.iter().map(convert::vector));
     recorder.on(REPLAY_TIME, REPLAY_ARROW.path(), &film.times_s, arrows.columns_of_unit_batches()?)?;
     for (axis, name) in AXES.iter().enumerate() {

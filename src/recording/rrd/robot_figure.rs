@@ -5,7 +5,7 @@ use rerun::{Boxes3D, Color, Cylinders3D, Ellipsoids3D, FillMode, Mesh3D};
 
 use super::convert;
 use super::entity_path::{Entity, ROBOT_BODY, ROBOT_SHAPE};
-use super::recorder::{Fault, Recorder};
+use super::recorder::{Fault, Recorder, Since};
 use crate::robot::{Body, Geometry, RobotModel, Shape};
 use crate::simulation::StepRecord;
 
@@ -15,14 +15,14 @@ pub(super) fn log_robot(recorder: &Recorder, robot: &RobotModel, records: &[Step
         let poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.bodies.get(index).copied()).collect();
         if poses.len() == records.len() {
             recorder.poses(ROBOT_BODY.of(&[&body.name]), &poses)?;
-            log_shapes(recorder, &ROBOT_SHAPE, body)?;
+            log_shapes(recorder, Since::Start, &ROBOT_SHAPE, body)?;
         }
     }
     Ok(())
 }
 
-/// Logs what a body looks like.
-pub(super) fn log_shapes(recorder: &Recorder, kind: &Entity, body: &Body) -> Result<(), Fault> {
+/// Logs what a body looks like, from some time on.
+pub(super) fn log_shapes(recorder: &Recorder, when: Since, kind: &Entity, body: &Body) -> Result<(), Fault> {
     let entity = |shape: &str| kind.of(&[&body.name, shape]);
     let (mut boxes, mut cylinders, mut spheres) = (Vec::new(), Vec::new(), Vec::new());
     for (index, visual) in body.visuals.iter().enumerate() {
@@ -31,7 +31,7 @@ pub(super) fn log_shapes(recorder: &Recorder, kind: &Entity, body: &Body) -> Res
             Shape::Cylinder { radius, half_length } => cylinders.push((visual, (2.0 * half_length) as f32, *radius as f32)),
             Shape::Sphere { radius } => spheres.push((visual, *radius as f32)),
             Shape::Mesh { vertices, triangles } => {
-                recorder.always(entity(&format!("mesh_{index}")), &mesh(visual, vertices, triangles))?;
+                recorder.from(when, entity(&format!("mesh_{index}")), &mesh(visual, vertices, triangles))?;
             }
         }
     }
@@ -40,7 +40,7 @@ pub(super) fn log_shapes(recorder: &Recorder, kind: &Entity, body: &Body) -> Res
         let solid = Boxes3D::from_centers_and_half_sizes(boxes.iter().map(|(v, _)| place(v)), half_sizes)
             .with_quaternions(boxes.iter().map(|(v, _)| turn(v)))
             .with_colors(boxes.iter().map(|(v, _)| color(v)));
-        recorder.always(entity("boxes"), &solid.with_fill_mode(FillMode::Solid))?;
+        recorder.from(when, entity("boxes"), &solid.with_fill_mode(FillMode::Solid))?;
     }
     if !cylinders.is_empty() {
         let (lengths, radii) = (cylinders.iter().map(|(_, length, _)| *length), cylinders.iter().map(|(_, _, radius)| *radius));
@@ -48,12 +48,12 @@ pub(super) fn log_shapes(recorder: &Recorder, kind: &Entity, body: &Body) -> Res
             .with_centers(cylinders.iter().map(|(v, ..)| place(v)))
             .with_quaternions(cylinders.iter().map(|(v, ..)| turn(v)))
             .with_colors(cylinders.iter().map(|(v, ..)| color(v)));
-        recorder.always(entity("cylinders"), &solid.with_fill_mode(FillMode::Solid))?;
+        recorder.from(when, entity("cylinders"), &solid.with_fill_mode(FillMode::Solid))?;
     }
     if !spheres.is_empty() {
         let solid = Ellipsoids3D::from_centers_and_radii(spheres.iter().map(|(v, _)| place(v)), spheres.iter().map(|(_, radius)| *radius))
             .with_colors(spheres.iter().map(|(v, _)| color(v)));
-        recorder.always(entity("spheres"), &solid.with_fill_mode(FillMode::Solid))?;
+        recorder.from(when, entity("spheres"), &solid.with_fill_mode(FillMode::Solid))?;
     }
     Ok(())
 }

@@ -4,8 +4,8 @@ use nalgebra::Isometry3;
 use rerun::{Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, FillMode};
 
 use super::convert;
-use super::entity_path::{Entity, OBJECT, OBJECT_SHAPE, Timeline};
-use super::recorder::{Fault, Recorder};
+use super::entity_path::{Entity, OBJECT, OBJECT_SHAPE};
+use super::recorder::{Fault, Recorder, Since};
 use crate::simulation::{Experiment, StepRecord};
 use crate::world::{Object, ObjectKind, ObjectPart, Parameters, PartShape, fixed_parts, object_parts, support_height_m};
 
@@ -18,17 +18,14 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
         if poses.len() == records.len() && !poses.is_empty() {
             recorder.poses(entity, &poses)?;
         } else {
-            recorder.always(entity, &convert::transform(&object.pose(&experiment.parameters, support)))?;
+            recorder.from(Since::Start, entity, &convert::transform(&object.pose(&experiment.parameters, support)))?;
         }
-        log_shapes(recorder, None, &OBJECT_SHAPE, object, &experiment.parameters)?;
+        log_shapes(recorder, Since::Start, &OBJECT_SHAPE, object, &experiment.parameters)?;
         let pose = object.pose(&experiment.parameters, support);
-        log_fixed(recorder, None, (&OBJECT, &OBJECT_SHAPE), object, &pose)?;
+        log_fixed(recorder, Since::Start, (&OBJECT, &OBJECT_SHAPE), object, &pose)?;
     }
     Ok(())
 }
-
-/// From when on something is logged; none: at all times.
-pub(super) type Since = Option<(Timeline, f64)>;
 
 /// Logs what an object looks like in a setting.
 pub(super) fn log_shapes(recorder: &Recorder, when: Since, entity: &Entity, object: &Object, parameters: &Parameters) -> Result<(), Fault> {

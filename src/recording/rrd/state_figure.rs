@@ -3,28 +3,34 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use rerun::{Ellipsoids3D, Points3D, Radius};
 
+use super::camera::Camera;
 use super::convert;
 use super::entity_path::{ACTIVE_LABEL, ACTIVE_STATE, STATE_OUTLINES, STATES};
-use super::lanes::{beta_color, beta_in_words};
+use super::lanes::{beta_color, beta_in_words, is_over};
 use super::outline_figure::{Outline, around, log_outlines};
 use super::palette;
 use super::paths::AXES;
-use super::recorder::{Fault, Recorder};
+use super::recorder::{Fault, Recorder, Since};
 use super::task_states::{Plan, State, states};
 use crate::simulation::{Experiment, RunOutcome, StepRecord};
 
 /// Ellipses are drawn at this many standard deviations: 95 % of a Gaussian in one dimension.
 pub(super) const DEVIATIONS: f64 = 2.0;
 
-/// Half axes of ellipsoids are at least this long (m), or those of states on which all agree could not be seen.
+/// Half axes of ellipsoids are at least this long (m) seen from far, or those of states on which all agree could not be seen.
 const THINNEST_M: f64 = 0.004;
 
-/// Logs the states of the skill in the setting of `experiment`; a skill without states logs none.
-pub(super) fn log_states(recorder: &Recorder, experiment: &Experiment, outcome: &RunOutcome, duration_s: f64) -> Result<(), Fault> {
+/// Logs the states of the skill in the setting of `experiment`, as a camera sees them; a skill without states logs none.
+pub(super) fn log_states(
+    recorder: &Recorder,
+    experiment: &Experiment,
+    outcome: &RunOutcome,
+    (duration_s, camera): (f64, &Camera),
+) -> Result<(), Fault> {
     let states = states(experiment, outcome, duration_s)?;
     let Some(plan) = Plan::new(&outcome.plan, duration_s).filter(|_| !states.is_empty()) else { return Ok(()) };
     let all: Vec<usize> = (0..states.len()).collect();
-    recorder.always(STATES.path(), &ellipsoids(&states, &all).with_line_radii([Radius::new_ui_points(0.7)]))?;
+    recorder.from(Since::Start, STATES.path(), &ellipsoids(&states, &all, camera).with_line_radii([Radius::new_ui_points(0.7)]))?;
     for (axis, name) in AXES.iter().enumerate() {
         let outlines: Vec<Outline<'_>> = states.iter().map(|state| outline(state, axis, &plan)).collect();
         log_outlines(recorder, &STATE_OUTLINES.of(&[name]), &outlines)?;
@@ -32,29 +38,35 @@ pub(super) fn log_states(recorder: &Recorder, experiment: &Experiment, outcome: 
     Ok(())
 }
 
-/// Logs the active state of some records when it changes, its name at the place of some `words` (m, world).
+/// Logs the active state of some records when it changes, its name beside the work.
 pub(super) fn log_active(
     recorder: &Recorder,
     experiment: &Experiment,
     outcome: &RunOutcome,
     records: &[StepRecord],
-    (duration_s, words): (f64, Vector3<f64>),
+    (duration_s, camera): (f64, &Camera),
 ) -> Result<(), Fault> {
     let states = &states(experiment, outcome, duration_s)?;
     if states.is_empty() {
         return Ok(());
     }
-    let known = |i: &usize| records[*i].state < states.len() && (*i == 0 || records[*i].state != records[i - 1].state);
-    let changes = (recorder.first()..records.len()).filter(known).map(|i| (records[i].time_s, records[i].state));
-    let (times, active): (Vec<f64>, Vec<usize>) = changes.unzip();
-    recorder.at_times(ACTIVE_STATE.path(), &times, ellipsoids(states, &active).columns_of_unit_batches()?)?;
+    let now = |i: usize| (records[i].state, is_over(&records[i]));
+    let known = |i: &usize| records[*i].state < states.len() && (*i == 0 || now(*i) != now(i - 1));
+    let changes: Vec<usize> = (recorder.first()..records.len()).filter(known).collect();
+    let times: Vec<f64> = changes.iter().map(|i| records[*i].time_s).collect();
+    let active: Vec<usize> = changes.iter().map(|i| records[*i].state).collect();
+    recorder.at_times(ACTIVE_STATE.path(), &times, ellipsoids(states, &active, camera).columns_of_unit_batches()?)?;
     // What the skill says; a run without coupling does not listen.
     let unheard = !experiment.execution.coupling.enabled;
     let suffix = |beta: f64| if unheard && beta != 0.0 { ", but the coupling is off" } else { "" };
-    let label = |i: &usize| format!("state {i}: {}{}", beta_in_words(states[*i].beta), suffix(states[*i].beta));
+    let label = |i: &usize| match now(*i) {
+        (state, true) => format!("state {state}: the skill is over"),
+        (state, false) => format!("state {state}: {}{}", beta_in_words(states[state].beta), suffix(states[state].beta)),
+    };
+    let words = convert::vector(&camera.words(0));
     let labels = Points3D::update_fields()
-        .with_positions(active.iter().map(|_| convert::vector(&words)))
-        .with_labels(active.iter().map(label))
+        .with_positions(active.iter().map(|_| words))
+        .with_labels(changes.iter().map(label))
         .with_colors(active.iter().map(|i| palette::light(beta_color(states[*i].beta))));
     recorder.at_times(ACTIVE_LABEL.path(), &times, labels.columns_of_unit_batches()?)?;
     recorder.always(ACTIVE_LABEL.path(), &Points3D::update_fields().with_radii([0.0]).with_show_labels(true))?;
@@ -62,8 +74,8 @@ pub(super) fn log_active(
     recorder.always(ACTIVE_STATE.path(), &look)
 }
 
-fn ellipsoids(states: &[State], which: &[usize]) -> Ellipsoids3D {
-    let axes: Vec<(Vector3<f64>, UnitQuaternion<f64>)> = which.iter().map(|i| thick_axes(&states[*i])).collect();
+fn ellipsoids(states: &[State], which: &[usize], camera: &Camera) -> Ellipsoids3D {
+    let axes: Vec<(Vector3<f64>, UnitQuaternion<f64>)> = which.iter().map(|i| thick_axes(&states[*i], camera.share)).collect();
     let center = |i: &usize| convert::vector(&states[*i].place);
     Ellipsoids3D::update_fields()
         .with_centers(which.iter().map(center))
@@ -73,9 +85,9 @@ fn ellipsoids(states: &[State], which: &[usize]) -> Ellipsoids3D {
 }
 
 /// The principal axes, none thinner than can be seen.
-fn thick_axes(state: &State) -> (Vector3<f64>, UnitQuaternion<f64>) {
+fn thick_axes(state: &State, share: f64) -> (Vector3<f64>, UnitQuaternion<f64>) {
     let (half, turn) = state.principal_axes(DEVIATIONS);
-    (half.map(|length| length.max(THINNEST_M)), turn)
+    (half.map(|length| length.max(THINNEST_M * share)), turn)
 }
 
 /// The ellipse of a state over time, carried along the planned coordinate `m(t)`:

@@ -3,15 +3,17 @@
 use nalgebra::{Isometry3, Vector3};
 use rerun::{Arrows3D, EntityPath, LineStrips3D, Scalars, StateChange, TextDocument, Transform3D, ViewCoordinates};
 
+use super::arrow::{Arrow, SMALLEST_N};
+use super::camera::Camera;
 use super::convert;
 use super::entity_path::{
     TEACHING, TEACHING_BODY, TEACHING_BODY_SHAPE, TEACHING_FORCE, TEACHING_GRIPPER, TEACHING_LANE, TEACHING_MOTION, TEACHING_NAME,
     TEACHING_OBJECT, TEACHING_OBJECT_SHAPE, TEACHING_PATH, TEACHING_PERSON, TEACHING_TIME,
 };
-use super::force_figure::{ARROW_M_PER_N, SMALLEST_ARROW_N, to_surface};
+use super::force_figure::to_surface;
 use super::palette;
 use super::paths::{AXES, style};
-use super::recorder::{Fault, Recorder};
+use super::recorder::{Fault, Recorder, Since};
 use super::robot_figure;
 use super::scene_figure;
 use crate::robot::RobotModel;
@@ -21,36 +23,43 @@ use crate::world::support_height_m;
 /// Time between two lessons on the timeline (s).
 const PAUSE_S: f64 = 1.0;
 
-/// Logs every lesson; nothing when the demonstrations were not taught in this run.
-pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, robot: &RobotModel, lessons: &[LessonRecord]) -> Result<(), Fault> {
-    log_from(recorder, experiment, robot, (0, lessons))
+/// Some lessons of a run that are logged together, as a camera sees them.
+pub(super) struct Lessons<'a> {
+    pub lessons: &'a [LessonRecord],
+    /// How many come before them.
+    pub number: usize,
+    /// Whether none that comes before them has been logged: from them on the robot is to be seen.
+    pub first: bool,
+    pub camera: Camera,
 }
 
-/// Logs lessons of a run of which `number` come before: where they will stand when all are there, for the lessons of a run last equally long.
-pub(super) fn log_from(
-    recorder: &Recorder,
-    experiment: &Experiment,
-    robot: &RobotModel,
-    (number, lessons): (usize, &[LessonRecord]),
-) -> Result<(), Fault> {
+/// Logs lessons where they will stand when all are there, for the lessons of a run last equally long; nothing when the demonstrations were not
+/// taught in this run.
+pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, robot: &RobotModel, told: &Lessons<'_>) -> Result<(), Fault> {
+    let Lessons { lessons, number, first, camera } = *told;
     let Some(length_s) = lessons.first().and_then(|lesson| lesson.looks.last()).map(|look| look.time_s) else { return Ok(()) };
     recorder.always(TEACHING.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
     let mut film = Film { number, start_s: number as f64 * (length_s + PAUSE_S), ..Film::default() };
     for lesson in lessons {
         let start_s = film.append(lesson);
         for object in &experiment.objects {
-            let when = Some((TEACHING_TIME, start_s));
+            let when = Since::On(TEACHING_TIME, start_s);
             scene_figure::log_shapes(recorder, when, &TEACHING_OBJECT_SHAPE, object, &lesson.parameters)?;
             let pose = object.pose(&lesson.parameters, support_height_m(&experiment.objects, object, &lesson.parameters));
             scene_figure::log_fixed(recorder, when, (&TEACHING_OBJECT, &TEACHING_OBJECT_SHAPE), object, &pose)?;
         }
     }
     film.log_bodies(recorder, robot)?;
+    if first {
+        let when = Since::On(TEACHING_TIME, film.start_s);
+        let seen = robot.bodies.iter().filter(|body| !body.visuals.is_empty());
+        seen.into_iter().try_for_each(|body| robot_figure::log_shapes(recorder, when, &TEACHING_BODY_SHAPE, body))?;
+    }
     for (index, object) in experiment.objects.iter().enumerate() {
         film.log_poses(recorder, TEACHING_OBJECT.of(&[&object.name]), |look| look.objects.get(index).copied())?;
     }
-    film.log_path(recorder)?;
-    film.log_person(recorder)?;
+    film.log_path(recorder, &camera)?;
+    film.log_person(recorder, Arrow::seen_by(&camera))?;
     film.log_plots(recorder)
 }
 
@@ -79,7 +88,6 @@ impl<'a> Film<'a> {
     fn log_bodies(&self, recorder: &Recorder, robot: &RobotModel) -> Result<(), Fault> {
         for (index, body) in robot.bodies.iter().enumerate().filter(|(_, body)| !body.visuals.is_empty()) {
             self.log_poses(recorder, TEACHING_BODY.of(&[&body.name]), |look| look.bodies.get(index).copied())?;
-            robot_figure::log_shapes(recorder, &TEACHING_BODY_SHAPE, body)?;
         }
         Ok(())
     }
@@ -104,26 +112,26 @@ impl<'a> Film<'a> {
     }
 
     /// The way of the tool, piece by piece; a lesson starts with a piece of no length.
-    fn log_path(&self, recorder: &Recorder) -> Result<(), Fault> {
+    fn log_path(&self, recorder: &Recorder, camera: &Camera) -> Result<(), Fault> {
         let starts = |i: usize| self.starts.iter().any(|(start, _)| *start == i);
         let piece = |i: usize| {
             let before = if starts(i) { i } else { i - 1 };
             [convert::vector(&self.looks[before].tool), convert::vector(&self.looks[i].tool)]
         };
-        let look = LineStrips3D::update_fields().with_colors([palette::TAUGHT]).with_radii([0.003]);
+        let look = LineStrips3D::update_fields().with_colors([palette::TAUGHT]).with_radii([0.003 * camera.share as f32]);
         recorder.always(TEACHING_PATH.path(), &look)?;
         let pieces = LineStrips3D::update_fields().with_strips((0..self.looks.len()).map(piece));
         recorder.on(TEACHING_TIME, TEACHING_PATH.path(), &self.times_s, pieces.columns_of_unit_batches()?)
     }
 
-    fn log_person(&self, recorder: &Recorder) -> Result<(), Fault> {
-        let visible = |force: &Vector3<f64>| force.norm() >= SMALLEST_ARROW_N;
+    fn log_person(&self, recorder: &Recorder, arrow: Arrow) -> Result<(), Fault> {
+        let visible = |force: &Vector3<f64>| force.norm() >= SMALLEST_N;
         let drawn = || self.looks.iter().map(|look| &look.human).filter(|human| visible(&human.force));
         let arrows = Arrows3D::update_fields()
-            .with_vectors(drawn().map(|human| convert::vector(&(human.force * ARROW_M_PER_N))))
+            .with_vectors(drawn().map(|human| convert::vector(&arrow.of(&human.force))))
             .with_origins(drawn().map(|human| convert::vector(&(human.point + to_surface(&human.force)).coords)));
         let lengths: Vec<usize> = self.looks.iter().map(|look| usize::from(visible(&look.human.force))).collect();
-        recorder.always(TEACHING_PERSON.path(), &Arrows3D::update_fields().with_colors([palette::PERSON]).with_radii([0.008]))?;
+        recorder.always(TEACHING_PERSON.path(), &arrow.look(palette::PERSON))?;
         recorder.on(TEACHING_TIME, TEACHING_PERSON.path(), &self.times_s, arrows.columns(lengths)?)
     }
 

@@ -45,7 +45,7 @@ fn record(experiment: &Experiment, outcome: &RunOutcome) -> Result<Vec<u8>, Faul
         stream: stream.clone(),
         ranges: Ranges::default(),
         experiment,
-        work: Workplace::of_steps(&outcome.steps),
+        work: Workplace::of_steps(&outcome.steps).with_paths(outcome),
         duration_s: skill_duration_s(&outcome.steps).unwrap_or_else(|| outcome.plan.duration_s()),
         beside: &outcome.beside,
     };
