@@ -76,15 +76,29 @@ pub(super) fn withdraw_verdict(words: impl Iterator<Item = OsString>) {
     let attached = words.iter().filter_map(|word| word.to_str()?.strip_prefix("--junit=").map(PathBuf::from));
     let after = words.windows(2).filter(|pair| pair[0] == "--junit").map(|pair| PathBuf::from(&pair[1]));
     for file in attached.chain(after).filter(|file| file.is_file()) {
-        // What is no JUnit is left alone, and what cannot be written was not ours to withdraw.
-        _ = replace_file(&file, junit_without_verdict().as_bytes(), Replaceable::Junit);
+        // What is no JUnit is left alone.
+        if replace_file(&file, junit_without_verdict().as_bytes(), Replaceable::Junit).is_err() {
+            remove_file(&file, Replaceable::Junit);
+        }
     }
 }
 
-/// A pipe, a terminal, or standard output by another name: a verdict could not be replaced there.
+/// A pipe, a terminal, or what the program writes its results to, by whatever name: a verdict could not be replaced there.
 fn is_device(path: &Path) -> bool {
-    let is_special = path.metadata().is_ok_and(|about| !about.is_file() && !about.is_dir());
-    is_special || path.starts_with("/proc") || std::fs::read_link(path).is_ok_and(|target| target.starts_with("/proc"))
+    let Ok(about) = path.metadata() else { return false };
+    (!about.is_file() && !about.is_dir()) || is_standard_stream(&about)
+}
+
+#[cfg(unix)]
+fn is_standard_stream(about: &std::fs::Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let streams = ["/dev/stdout", "/dev/stderr"].into_iter().filter_map(|stream| std::fs::metadata(stream).ok());
+    streams.into_iter().any(|stream| (stream.dev(), stream.ino()) == (about.dev(), about.ino()))
+}
+
+#[cfg(not(unix))]
+fn is_standard_stream(_: &std::fs::Metadata) -> bool {
+    false
 }
 
 fn not_written(error: &OutputError, terminal: &Terminal) -> Outcome {

@@ -54,10 +54,13 @@ pub(super) fn write(
     if let Some(left) = &run.left {
         // What tells of the run must fit, whatever else does.
         let reserve = vec![0; run.report.to_json().len() + scenario.resolved.len() + MANIFEST_ROOM];
-        room.put(RESERVE, |place| text(write_file(place, &reserve)));
+        let place = folder.staging().join(RESERVE);
+        if write_file(&place, &reserve).is_err() {
+            spare();
+            _ = write_file(&place, &reserve);
+        }
         recordings(left, scenario, &mut room);
-        room.failures.retain(|failure| !failure.contains(RESERVE));
-        _ = std::fs::remove_file(folder.staging().join(RESERVE));
+        _ = std::fs::remove_file(place);
     }
     let mut lost: Vec<String> = Vec::new();
     loop {

@@ -62,7 +62,7 @@ pub(super) fn without_effect(matches: &ArgMatches) -> Vec<String> {
     useless.map(told).collect()
 }
 
-/// The command in a command line that may make no sense otherwise: the first word that is neither a flag nor the value of one.
+/// The command in a command line that may make no sense otherwise: the first word that is called as one and is not the value of a flag.
 pub(super) fn command_of(words: &[OsString]) -> Option<&str> {
     let program = Cli::command();
     let takes_value = |flag: &str| {
@@ -73,8 +73,8 @@ pub(super) fn command_of(words: &[OsString]) -> Option<&str> {
     while let Some(word) = words.next() {
         match word.strip_prefix("--") {
             Some(flag) if takes_value(flag) => _ = words.next(),
-            _ if word.starts_with('-') => {}
-            _ => return Some(word),
+            _ if TAKEN.iter().any(|(command, _)| *command == word) => return Some(word),
+            _ => {}
         }
     }
     None

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 
 use glob::{MatchOptions, Pattern};
-use walkdir::WalkDir;
+use walkdir::{DirEntry, WalkDir};
 
 use super::terminal::Terminal;
 use crate::report::Outcome;
@@ -31,18 +31,27 @@ pub(super) fn select(paths: &[PathBuf], terminal: &Terminal) -> Result<Vec<PathB
 
 /// The scenarios that one argument names: a file itself, those of a folder; of what matches a pattern, those that each match names.
 pub(super) fn scenarios(path: &Path) -> Vec<PathBuf> {
-    if is_pattern(path) {
-        let mut found: Vec<PathBuf> =
-            matching(path).iter().filter(|one| one.is_dir() || is_scenario(one)).flat_map(|one| scenarios(one)).collect();
-        found.sort();
-        found.dedup();
-        return found;
+    if !is_pattern(path) {
+        // A file that is not there is a fault of its own, told when it is read.
+        return if path.is_dir() { scenarios_in(path) } else { vec![path.to_path_buf()] };
     }
-    if path.is_dir() {
-        return inside(path).into_iter().filter(|file| is_scenario(file) && !file.is_dir()).collect();
+    let of_match = |one: PathBuf| match (one.is_dir(), is_scenario(&one)) {
+        (true, _) => scenarios_in(&one),
+        (false, true) => vec![one],
+        (false, false) => Vec::new(),
+    };
+    let mut found: Vec<PathBuf> = matching(path).into_iter().flat_map(of_match).collect();
+    found.sort();
+    found.dedup();
+    found
+}
+
+fn scenarios_in(folder: &Path) -> Vec<PathBuf> {
+    match std::fs::read_dir(folder) {
+        Ok(_) => inside(folder).into_iter().filter(|file| is_scenario(file) && !file.is_dir()).collect(),
+        // So is a folder that cannot be looked into.
+        Err(_) => vec![folder.to_path_buf()],
     }
-    // A file that is not there is a fault of its own, told when it is read.
-    vec![path.to_path_buf()]
 }
 
 /// Whether it is named like a scenario. The list of a dataset is none, and lies in its folder by this name.
@@ -64,22 +73,31 @@ pub(super) fn is_pattern(path: &Path) -> bool {
     !path.exists() && has_wildcard(path.as_os_str())
 }
 
-/// What matches a pattern, sorted.
+/// What matches a pattern, sorted; also what may hold matches and cannot be looked into.
 pub(super) fn matching(path: &Path) -> Vec<PathBuf> {
-    let Ok(pattern) = Pattern::new(&path.to_string_lossy()) else { return Vec::new() };
     // What comes before the first part with a wildcard is where to look.
     let parts: Vec<Component<'_>> = path.components().collect();
+    let plain: PathBuf = parts.iter().collect();
+    let Ok(pattern) = Pattern::new(&plain.to_string_lossy()) else { return Vec::new() };
     let fixed = parts.iter().take_while(|part| !has_wildcard(part.as_os_str())).count();
     let base: PathBuf = parts[..fixed].iter().collect();
     let start = if base.as_os_str().is_empty() { Path::new(".") } else { &base };
     let is_deep = parts.iter().any(|part| part.as_os_str() == "**");
+    let asks_for_hidden = parts[fixed..].iter().any(|part| matches!(part, Component::Normal(name) if is_hidden(name)));
     // As in a shell: a link to a folder is one for `*`, and no way into the depth for `**`, where it could lead in a circle.
     let walk = WalkDir::new(start).min_depth(1).follow_links(!is_deep).max_depth(if is_deep { usize::MAX } else { parts.len() - fixed });
-    let seen = walk.into_iter().filter_entry(|entry| entry.depth() == 0 || !is_hidden(entry.file_name())).flatten();
-    let named = seen.filter_map(|entry| Some(base.join(entry.path().strip_prefix(start).ok()?)));
+    let seen = walk.into_iter().filter_entry(|entry| entry.depth() == 0 || asks_for_hidden || !is_hidden(entry.file_name()));
+    let named = |place: &Path| Some(base.join(place.strip_prefix(start).ok()?));
     let options = MatchOptions { case_sensitive: true, require_literal_separator: true, require_literal_leading_dot: true };
-    let mut found: Vec<PathBuf> = named.filter(|path| pattern.matches_path_with(path, options)).collect();
+    let fits = |place: &PathBuf| pattern.matches_path_with(place, options);
+    let of_entry = |entry: Result<DirEntry, walkdir::Error>| match entry {
+        Ok(entry) => named(entry.path()).filter(fits),
+        // A link to nothing is what its name says; a folder that is closed hides something.
+        Err(error) => named(error.path()?).filter(|place| fits(place) || (is_deep && place.is_dir())),
+    };
+    let mut found: Vec<PathBuf> = seen.filter_map(of_entry).collect();
     found.sort();
+    found.dedup();
     found
 }
 

@@ -73,11 +73,11 @@ pub fn replace_file(path: &Path, content: &[u8], replaceable: Replaceable) -> Re
     write().map(|_| ()).map_err(OutputError::io(path))
 }
 
-/// Removes a file if it is what might be replaced; what cannot be removed stays.
+/// Removes a file if it is what might be replaced, or empties it where it cannot be removed.
 pub fn remove_file(path: &Path, replaceable: Replaceable) {
     let place = followed(path);
-    if is_replaceable(&place, replaceable) {
-        _ = fs::remove_file(place);
+    if is_replaceable(&place, replaceable) && fs::remove_file(&place).is_err() {
+        _ = File::create(place);
     }
 }
 

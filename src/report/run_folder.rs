@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::Outcome;
 use super::lock::{Lock, lock_beside};
-use super::manifest::FORMAT;
+use super::manifest::{FORMAT, read_regular};
 
 /// Why output cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -123,12 +123,14 @@ fn may_be_replaced(target: &Path) -> Result<(), OutputError> {
     let Ok(mut entries) = fs::read_dir(target) else {
         return if target.symlink_metadata().is_ok() { Err(OutputError::NotARun(target.to_path_buf())) } else { Ok(()) };
     };
-    let is_run = || {
-        let manifest = fs::read_to_string(target.join("manifest.json")).unwrap_or_default();
-        let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap_or_default();
-        manifest["format"] == FORMAT
-    };
-    if entries.next().is_none() || is_run() { Ok(()) } else { Err(OutputError::NotARun(target.to_path_buf())) }
+    if entries.next().is_none() || is_run(target) { Ok(()) } else { Err(OutputError::NotARun(target.to_path_buf())) }
+}
+
+/// Whether a folder holds a run that is whole: its manifest is written last.
+fn is_run(folder: &Path) -> bool {
+    let manifest = read_regular(&folder.join("manifest.json")).unwrap_or_default();
+    let manifest: serde_json::Value = serde_json::from_slice(&manifest).unwrap_or_default();
+    manifest["format"] == FORMAT
 }
 
 fn remove_if_there(folder: &Path) -> Result<(), OutputError> {
@@ -151,11 +153,13 @@ pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputEr
 /// Puts a whole run in its place that a kill has left beside it, between the two renames of [`RunFolder::finish`]: the new one, which has its
 /// manifest, or the old one.
 fn bring_back(target: &Path, staging: &Path) -> Result<(), OutputError> {
-    let whole = [staging.to_path_buf(), staging.with_extension("old")].into_iter().find(|place| place.join("manifest.json").is_file());
-    match whole.filter(|_| !target.exists()) {
-        Some(place) => fs::rename(place, target).map_err(OutputError::io(target)),
-        None => Ok(()),
+    let old = staging.with_extension("old");
+    let whole = [staging, &old].into_iter().find(|place| is_run(place));
+    if let Some(place) = whole.filter(|_| !target.exists()) {
+        fs::rename(place, target).map_err(OutputError::io(target))?;
     }
+    // What bears our name and is none of ours would be removed at the end.
+    may_be_replaced(&old)
 }
 
 #[cfg(test)]
@@ -181,6 +185,14 @@ mod tests {
             fs::remove_dir_all(&target).expect("removed");
             fs::remove_dir_all(place.path().join(".a.old")).ok();
         }
+        // A manifest that was being written is that of no run.
+        fs::create_dir_all(place.path().join(".a.partial")).expect("made");
+        fs::write(place.path().join(".a.partial/manifest.json"), &MANIFEST[..9]).expect("written");
+        drop(RunFolder::open(&target).expect("free"));
+        assert!(!target.exists());
+        fs::create_dir_all(place.path().join(".a.old")).expect("made");
+        fs::write(place.path().join(".a.old/thesis"), "mine").expect("written");
+        assert!(matches!(RunFolder::open(&target), Err(OutputError::NotARun(path)) if path.ends_with(".a.old")));
     }
 
     #[test]

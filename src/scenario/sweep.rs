@@ -72,7 +72,8 @@ impl Sweep {
             add(&mut axes, axis, &tree, &sources);
         }
         if may_decide {
-            axes.retain(|axis| !axis.keys.iter().any(|key| is_decided(key, &tree, options)));
+            axes.iter_mut().for_each(|axis| axis.keys.retain(|key| !is_decided(key, &tree, options)));
+            axes.retain(|axis| !axis.keys.is_empty());
         }
         faults.extend(contradictions(&axes, &tree, options));
         if options.lenient {

@@ -48,7 +48,7 @@ impl ArmColumns {
                 let (off_mm, off_deg) = (off_m * 1e3, off_rad.to_degrees());
                 let (most_mm, most_deg) = (AGREE_M * 1e3, AGREE_RAD.to_degrees());
                 let apart = format!("which are up to {off_mm:.1} mm and {off_deg:.1} deg apart (at {time_s:.3} s)");
-                format!("{apart}, more than {most_mm:.0} mm and {most_deg:.1} deg")
+                format!("{apart}, more than {most_mm:.0} mm or {most_deg:.1} deg")
             }
             _ => "which may contradict each other".to_owned(),
         };

@@ -136,6 +136,14 @@ fn a_check_without_a_verdict_leaves_no_green_file() {
     assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
     assert_eq!(folder.call(&["--out", "run", "check", "a.toml", "--bogus", "--junit", "v.xml"]).code, Some(2));
     assert!(written().contains("did not come to its end"), "{}", written());
+    assert_eq!(folder.call(&["check", "a.toml", "--junit", "v.xml"]).code, Some(0));
+    assert_eq!(folder.call(&["--bogus", "3", "check", "a.toml", "--junit", "v.xml"]).code, Some(2));
+    assert!(written().contains("did not come to its end"), "{}", written());
+    // What the results go to cannot hold the verdict too, whatever it is called.
+    let out = std::fs::File::create(folder.path().join("out.txt")).expect("made");
+    let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_cpdmp"));
+    let ended = program.current_dir(folder.path()).args(["check", "a.toml", "-q", "--junit", "out.txt"]).stdout(out).status();
+    assert_eq!(ended.expect("it runs").code(), Some(2));
     let said = folder.call(&["check", "a.toml", "--junit", "/dev/stdout"]);
     assert!(said.code == Some(2) && said.stderr.contains("--format junit prints it"), "{}", said.stderr);
     // An empty file is free, and a link leads to what is read.

@@ -154,7 +154,7 @@ fn joints_and_tool_are_one_movement_or_refused() {
     let two = checked(&folder(&samples(&[REST, REST], &columns(0.03))), &[], 3).to_string();
     assert!(
         two.contains("and by [x_m, y_m, z_m, qx, qy, qz, qw]")
-            && two.contains("up to 30.0 mm and 0.0 deg apart (at 0.000 s), more than 5 mm and 0.6 deg"),
+            && two.contains("up to 30.0 mm and 0.0 deg apart (at 0.000 s), more than 5 mm or 0.6 deg"),
         "{two}"
     );
 }

@@ -125,6 +125,9 @@ fn patterns_are_those_of_a_shell() {
     let hidden = Folder::with(&[("a.toml", good), (".hidden/b.toml", good), (".c.toml", good), ("in/d.toml", good)]);
     assert_eq!(listed(&hidden, "**/*.toml"), ["a.toml", "in/d.toml"]);
     assert_eq!(listed(&hidden, "."), ["./a.toml"]);
+    assert_eq!(listed(&hidden, ".h*/*.toml"), [".hidden/b.toml"]);
+    assert_eq!(listed(&hidden, ".//a*"), ["./a.toml"]);
+    assert_eq!(listed(&hidden, "i*/"), ["in/d.toml"]);
     #[cfg(unix)]
     {
         for name in ["x", "y", "z"] {
@@ -133,6 +136,12 @@ fn patterns_are_those_of_a_shell() {
         std::os::unix::fs::symlink("in", hidden.path().join("link")).expect("a link");
         assert_eq!(listed(&hidden, "**/*.toml"), ["a.toml", "in/d.toml"]);
         assert_eq!(listed(&hidden, "l*/*.toml"), ["link/d.toml"]);
+        // A link to nothing is not passed over.
+        std::os::unix::fs::symlink("gone", hidden.path().join("gone.toml")).expect("a link");
+        for pattern in ["*.toml", "**/*.toml", "."] {
+            let said = hidden.call(&["validate", pattern]);
+            assert!(said.code == Some(3) && said.stderr.contains("gone.toml"), "{pattern}: {}", said.stderr);
+        }
     }
 }
 

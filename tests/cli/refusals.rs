@@ -130,11 +130,15 @@ fn flags_mend_a_file_that_has_a_sweep() {
 
     // A sweep that is wrong with and without a flag is wrong, in whatever words; and so is one that flags make wrong by what they say of it.
     let durations = format!("{GOOD}\n[[sweep]]\nkind = \"grid\"\nkey = \"teaching.duration_s\"\nvalues = [3.0, 5.0]\n");
+    let two = "ranges = { \"object.toy.radius_m\" = [0.03, 0.031], \"object.toy.radus_m\" = [0.03, 0.031] }";
+    let two = format!("{GOOD}\n[[sweep]]\nkind = \"latin_hypercube\"\ncount = 2\n{two}\n");
     let radii = format!("{GOOD}\n[[sweep]]\nkind = \"grid\"\nkey = \"object.toy.radius_m\"\nvalues = [0.03, 0.031]\n");
-    let folder = Folder::with(&[("durations.toml", durations.as_bytes()), ("radii.toml", radii.as_bytes())]);
+    let folder = Folder::with(&[("durations.toml", durations.as_bytes()), ("radii.toml", radii.as_bytes()), ("two.toml", two.as_bytes())]);
     for (flags, code) in [
         (&["durations.toml"][..], 3),
         (&["durations.toml", "--set", "teaching.waypoint.1.time_s=3.9"], 3),
+        (&["two.toml"], 3),
+        (&["two.toml", "--set", "object.toy.radius_m=0.03"], 3),
         (&["radii.toml"], 0),
         (&["radii.toml", "--set", "object.toy.radius_m=0.032"], 0),
         (&["radii.toml", "--set", "sweep.0.values=[-1.0]"], 3),
