@@ -73,7 +73,7 @@ impl RunFolder {
         // Left behind only by a run that was killed: under the lock nobody else writes here.
         let staging = parent.join(format!(".{name}.partial"));
         bring_back(target, &staging)?;
-        remove_if_there(&staging)?;
+        clear(&staging)?;
         fs::create_dir(&staging).map_err(OutputError::io(&staging))?;
         Ok(Self { target: target.to_path_buf(), staging, _lock: lock })
     }
@@ -98,7 +98,6 @@ impl RunFolder {
     pub fn finish(self) -> Result<PathBuf, OutputError> {
         may_be_replaced(&self.target)?;
         let old = self.staging.with_extension("old");
-        remove_if_there(&old)?;
         if self.target.exists() {
             fs::rename(&self.target, &old).map_err(OutputError::io(&self.target))?;
         }
@@ -107,7 +106,7 @@ impl RunFolder {
             _ = fs::rename(&old, &self.target);
             return Err(OutputError::Io { path: self.target.clone(), source });
         }
-        remove_if_there(&old)?;
+        clear(&self.staging)?;
         Ok(self.target.clone())
     }
 }
@@ -131,6 +130,13 @@ fn is_run(folder: &Path) -> bool {
     let manifest = read_regular(&folder.join("manifest.json")).unwrap_or_default();
     let manifest: serde_json::Value = serde_json::from_slice(&manifest).unwrap_or_default();
     manifest["format"] == FORMAT
+}
+
+/// Removes what there is of a run beside its place. The older one under the newer one's name: half removed it would look like somebody's.
+fn clear(staging: &Path) -> Result<(), OutputError> {
+    remove_if_there(staging)?;
+    _ = fs::rename(staging.with_extension("old"), staging);
+    remove_if_there(staging)
 }
 
 fn remove_if_there(folder: &Path) -> Result<(), OutputError> {
