@@ -90,10 +90,15 @@ pub(super) fn matching(path: &Path) -> Vec<PathBuf> {
     let named = |place: &Path| Some(base.join(place.strip_prefix(start).ok()?));
     let options = MatchOptions { case_sensitive: true, require_literal_separator: true, require_literal_leading_dot: true };
     let fits = |place: &PathBuf| pattern.matches_path_with(place, options);
+    // Whether what would match lies in it.
+    let leads_on = |place: &PathBuf| {
+        let head: PathBuf = parts.iter().take(place.components().count()).collect();
+        place.is_dir() && (is_deep || Pattern::new(&head.to_string_lossy()).is_ok_and(|head| head.matches_path_with(place, options)))
+    };
     let of_entry = |entry: Result<DirEntry, walkdir::Error>| match entry {
         Ok(entry) => named(entry.path()).filter(fits),
-        // A link to nothing is what its name says; a folder that is closed hides something.
-        Err(error) => named(error.path()?).filter(|place| fits(place) || (is_deep && place.is_dir())),
+        // A link to nothing is what its name says; a folder that is closed, or leads to where it is in, hides something.
+        Err(error) => named(error.path()?).filter(|place| fits(place) || leads_on(place)),
     };
     let mut found: Vec<PathBuf> = seen.filter_map(of_entry).collect();
     found.sort();

@@ -136,6 +136,8 @@ fn is_run(folder: &Path) -> bool {
 fn clear(staging: &Path) -> Result<(), OutputError> {
     remove_if_there(staging)?;
     _ = fs::rename(staging.with_extension("old"), staging);
+    // Without it nobody takes the rest for a run.
+    _ = fs::remove_file(staging.join("manifest.json"));
     remove_if_there(staging)
 }
 
@@ -161,7 +163,8 @@ pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputEr
 fn bring_back(target: &Path, staging: &Path) -> Result<(), OutputError> {
     let old = staging.with_extension("old");
     let whole = [staging, &old].into_iter().find(|place| is_run(place));
-    if let Some(place) = whole.filter(|_| !target.exists()) {
+    let is_free = fs::read_dir(target).map_or(!target.exists(), |mut entries| entries.next().is_none());
+    if let Some(place) = whole.filter(|_| is_free) {
         fs::rename(place, target).map_err(OutputError::io(target))?;
     }
     // What bears our name and is none of ours would be removed at the end.
@@ -179,7 +182,10 @@ mod tests {
     fn what_a_kill_left_beside_its_place_is_brought_back() {
         let place = tempfile::tempdir().expect("a folder");
         let target = place.path().join("a");
-        for whole in [".a.partial", ".a.old"] {
+        for (whole, is_made) in [(".a.partial", false), (".a.old", false), (".a.old", true)] {
+            if is_made {
+                fs::create_dir(&target).expect("made");
+            }
             for beside in [".a.partial", ".a.old"] {
                 fs::create_dir_all(place.path().join(beside)).expect("made");
             }

@@ -39,21 +39,17 @@ impl Sweep {
 }
 
 /// What keeps the `[[sweep]]` of a file from being run. Nothing in a file that has none. A flag may mend a file; one that makes a single run of it
-/// decides what otherwise varies; and what only flags make wrong in other members is no fault of the file, unless they are about the sweep itself: a fault
-/// counts when there is one of its kind without flags too.
+/// decides what otherwise varies; and what only flags make wrong in other members is no fault of a file that is good without them, unless they are
+/// about the sweep itself.
 pub(super) fn faults_of_file(path: &Path, options: &LoadOptions) -> Vec<Diagnostic> {
     let faults = |options: &LoadOptions| match Sweep::load_decided(path, options) {
         Ok(sweep) if sweep.axes.is_empty() => Vec::new(),
         Ok(sweep) => sweep.faults(),
         Err(invalid) => invalid.0,
     };
-    let mut found = faults(&LoadOptions { deny_warnings: false, ..options.clone() });
+    let found = faults(&LoadOptions { deny_warnings: false, ..options.clone() });
     let about_sweep = options.set.iter().any(|typed| typed.trim_start().starts_with("sweep"));
-    if !found.is_empty() && !about_sweep {
-        let without = faults(&options.without_overrides());
-        found.retain(|fault| without.iter().any(|other| other.code == fault.code));
-    }
-    found
+    if found.is_empty() || about_sweep || !faults(&options.without_overrides()).is_empty() { found } else { Vec::new() }
 }
 
 /// Whether a flag gives a key of a sweep its one value.

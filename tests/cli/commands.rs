@@ -136,6 +136,7 @@ fn patterns_are_those_of_a_shell() {
         std::os::unix::fs::symlink("in", hidden.path().join("link")).expect("a link");
         assert_eq!(listed(&hidden, "**/*.toml"), ["a.toml", "in/d.toml"]);
         assert_eq!(listed(&hidden, "l*/*.toml"), ["link/d.toml"]);
+        assert!(listed(&hidden, "in/*/*.toml").contains(&"in/x/d.toml".to_owned()), "a link to its own folder is one all the same");
         // A link to nothing is not passed over.
         std::os::unix::fs::symlink("gone", hidden.path().join("gone.toml")).expect("a link");
         for pattern in ["*.toml", "**/*.toml", "."] {

@@ -132,13 +132,21 @@ fn flags_mend_a_file_that_has_a_sweep() {
     let durations = format!("{GOOD}\n[[sweep]]\nkind = \"grid\"\nkey = \"teaching.duration_s\"\nvalues = [3.0, 5.0]\n");
     let two = "ranges = { \"object.toy.radius_m\" = [0.03, 0.031], \"object.toy.radus_m\" = [0.03, 0.031] }";
     let two = format!("{GOOD}\n[[sweep]]\nkind = \"latin_hypercube\"\ncount = 2\n{two}\n");
+    let kinds = format!("{GOOD}\n[[sweep]]\nkind = \"grid\"\nkey = \"object.toy.kind\"\nvalues = [\"ball\", \"box\"]\n");
     let radii = format!("{GOOD}\n[[sweep]]\nkind = \"grid\"\nkey = \"object.toy.radius_m\"\nvalues = [0.03, 0.031]\n");
-    let folder = Folder::with(&[("durations.toml", durations.as_bytes()), ("radii.toml", radii.as_bytes()), ("two.toml", two.as_bytes())]);
+    let folder = Folder::with(&[
+        ("durations.toml", durations.as_bytes()),
+        ("radii.toml", radii.as_bytes()),
+        ("two.toml", two.as_bytes()),
+        ("kinds.toml", kinds.as_bytes()),
+    ]);
     for (flags, code) in [
         (&["durations.toml"][..], 3),
         (&["durations.toml", "--set", "teaching.waypoint.1.time_s=3.9"], 3),
         (&["two.toml"], 3),
         (&["two.toml", "--set", "object.toy.radius_m=0.03"], 3),
+        (&["kinds.toml"], 3),
+        (&["kinds.toml", "--set", "object.toy.size_m=[0.1, 0.1, 9.0]"], 3),
         (&["radii.toml"], 0),
         (&["radii.toml", "--set", "object.toy.radius_m=0.032"], 0),
         (&["radii.toml", "--set", "sweep.0.values=[-1.0]"], 3),
