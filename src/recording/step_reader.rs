@@ -72,6 +72,7 @@ fn record(table: &StepTable, row: usize, objects: &[String]) -> Result<StepRecor
         tool_impulse: vector("tool_impulse", "_ns").unwrap_or_else(|_| Vector3::repeat(f64::NAN)),
         bodies: Vec::new(),
         objects: objects.iter().map(|prefix| table.pose(row, prefix)).collect::<Result<_, _>>()?,
+        touches: Vec::new(),
         kinetic_energy_j: real("kinetic_energy_j")?,
     })
 }

@@ -61,17 +61,8 @@ fn row(criterion: &CriterionReport) -> [String; 6] {
     let with_unit = |number: Option<f64>| number.map_or("-".to_owned(), |number| format!("{}{unit}", figure(number)));
     let margin =
         criterion.margin.map_or("-".to_owned(), |number| format!("{}{}{unit}", if number < 0.0 { "" } else { "+" }, figure(number)));
-    let failed_at = criterion.first_failed_time_s.map_or(String::new(), |time| format!(" at {time:.2} s"));
-    let verdict = match (criterion.as_expected, criterion.required, criterion.passed) {
-        (true, true, true) => "ok".to_owned(),
-        (true, true, false) => format!("ok: fails{failed_at}, as expected"),
-        (_, false, true) => "holds".to_owned(),
-        (_, false, false) => format!("does not hold{failed_at}"),
-        (false, true, false) => format!("FAILED{failed_at}"),
-        (false, true, true) => "FAILED: holds, but should not".to_owned(),
-    };
     let expected = if criterion.required { &*criterion.expect } else { "-" };
-    [criterion.name.clone(), expected.to_owned(), with_unit(criterion.value), with_unit(criterion.limit), margin, verdict]
+    [criterion.name.clone(), expected.to_owned(), with_unit(criterion.value), with_unit(criterion.limit), margin, verdict::words(criterion)]
 }
 
 fn verdict_colour(criterion: &CriterionReport) -> &'static str {

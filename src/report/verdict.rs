@@ -16,6 +16,22 @@ pub(super) fn numbers(criterion: &CriterionReport) -> String {
     format!("{}, limit {}{margin}{whose}", with_unit(criterion.value), with_unit(criterion.limit))
 }
 
+/// What is said of a criterion that is required and holds.
+pub(super) const OK: &str = "ok";
+
+/// Whether the criterion is as it should be, in a few words.
+pub(super) fn words(criterion: &CriterionReport) -> String {
+    let failed_at = criterion.first_failed_time_s.map_or(String::new(), |time| format!(" at {time:.2} s"));
+    match (criterion.as_expected, criterion.required, criterion.passed) {
+        (true, true, true) => OK.to_owned(),
+        (true, true, false) => format!("ok: fails{failed_at}, as expected"),
+        (_, false, true) => "holds".to_owned(),
+        (_, false, false) => format!("does not hold{failed_at}"),
+        (false, true, false) => format!("FAILED{failed_at}"),
+        (false, true, true) => "FAILED: holds, but should not".to_owned(),
+    }
+}
+
 /// What is said of a required criterion without an answer.
 const NO_ANSWER: &str = "has no answer: what it asks about never happened, or not for long enough, or is a distance of two things of which \
                          neither can move, or of one that is not there";

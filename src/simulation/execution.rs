@@ -79,6 +79,7 @@ pub(super) fn execute(setup: &Setup, skill: &Skill, from: Option<&Snapshot>, pro
         step_s,
         phase: Phase { name: "execute", progress },
     };
+    run.world.keep_touches(every);
     run.world.trace(experiment.trace.every_steps, experiment.trace.detail_of("execute", 0), steps);
     let left = steps.saturating_sub(run.world.step());
     // Each stretch between two snapshots is a run of the loop.
@@ -194,6 +195,7 @@ fn record(now: &Published<SkillController>, objects: usize, tool_impulse: Vector
         tool_impulse,
         bodies,
         objects: (0..objects).map(|index| now.world.object_pose(index)).collect(),
+        touches: now.world.recent_touches().to_vec(),
         kinetic_energy_j: now.world.kinetic_energy_j(),
     }
 }

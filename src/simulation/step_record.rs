@@ -3,6 +3,7 @@
 use nalgebra::{Isometry3, Vector3, Vector6};
 
 use super::AppliedForce;
+use crate::world::TouchPoint;
 
 /// One logged step. World frame, SI.
 #[derive(Clone, Debug)]
@@ -53,6 +54,8 @@ pub struct StepRecord {
     pub bodies: Vec<Isometry3<f64>>,
     /// Poses of the scene's objects in the order of the experiment; of a cabinet, that of its door.
     pub objects: Vec<Isometry3<f64>>,
+    /// What touched since the record before: of each pair of parts where it was deepest. Not part of the archive of steps.
+    pub touches: Vec<TouchPoint>,
     /// Kinetic energy of the robot and the objects (J).
     pub kinetic_energy_j: f64,
 }

@@ -8,6 +8,7 @@ use super::convert;
 use super::gap::Gap;
 use super::parts::{Owner, Part, Parts};
 use super::proximity::Touch;
+use super::recent_touches::RecentTouches;
 
 /// All contacts of one pair of parts during a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +59,8 @@ pub(super) struct ContactBook {
     pub grips: Vec<(usize, usize)>,
     /// Force by the objects on fingers and tool in this step, normal to the surfaces that touch and along them (N, world).
     pub tool_force: Vector3<f64>,
+    /// What touched since the last record of a run.
+    pub recent: RecentTouches,
 }
 
 impl ContactBook {
@@ -89,27 +92,31 @@ impl ContactBook {
             }
             // The engine's contacts are those of the step's start: where the parts are now is asked of their shapes.
             let gap = colliders_gap(engine, first, second);
-            let episode = self.episode((a.0, b.0), parts, time_s);
+            let index = self.episode((a.0, b.0), parts, time_s);
+            let episode = &mut self.episodes[index];
             episode.last_time_s = time_s;
             episode.max_force_n = episode.max_force_n.max(force);
             if let Some(gap) = gap {
                 episode.deepen(time_s, &gap);
+                self.recent.note(index, &gap);
             }
         }
     }
 
     /// Notes a touch that the shapes tell.
     pub(super) fn note(&mut self, touch: &Touch, parts: &Parts) {
-        let episode = self.episode(touch.parts, parts, touch.time_s);
+        let index = self.episode(touch.parts, parts, touch.time_s);
+        let episode = &mut self.episodes[index];
         episode.first_time_s = episode.first_time_s.min(touch.time_s);
         episode.last_time_s = episode.last_time_s.max(touch.time_s);
         episode.deepen(touch.time_s, &touch.gap);
+        self.recent.note(index, &touch.gap);
     }
 
-    /// The episode of a pair, the robot's part first, then what moves. Two parts of equal rank are told in either order, and are one pair.
-    fn episode(&mut self, pair: (usize, usize), parts: &Parts, time_s: f64) -> &mut ContactEpisode {
+    /// Number of the episode of a pair, the robot's part first, then what moves. Two parts of equal rank are told in either order, and are one pair.
+    fn episode(&mut self, pair: (usize, usize), parts: &Parts, time_s: f64) -> usize {
         let same = |known: (usize, usize)| known == pair || known == (pair.1, pair.0);
-        let index = self.episodes.iter().position(|episode| same(episode.pair)).unwrap_or_else(|| {
+        self.episodes.iter().position(|episode| same(episode.pair)).unwrap_or_else(|| {
             let (a, b) = (parts.get(pair.0), parts.get(pair.1));
             let permission = permission(a, b);
             self.episodes.push(ContactEpisode {
@@ -127,8 +134,7 @@ impl ContactBook {
                 pair,
             });
             self.episodes.len() - 1
-        });
-        &mut self.episodes[index]
+        })
     }
 }
 

@@ -7,7 +7,7 @@ use rapier3d_f64::prelude::RigidBodyHandle;
 
 use super::hook::Hook;
 use super::simulated_world::World;
-use super::{Clearance, ContactEpisode, GraspState, convert};
+use super::{Clearance, ContactEpisode, GraspState, TouchPoint, convert};
 
 /// What can be seen of a world.
 impl World {
@@ -114,6 +114,16 @@ impl World {
     /// All contacts so far.
     pub fn contacts(&self) -> &[ContactEpisode] {
         &self.contacts.episodes
+    }
+
+    /// Where what touches did so since the last record, when touches are kept for records; one point of a pair, where it was deepest.
+    pub fn recent_touches(&self) -> &[TouchPoint] {
+        &self.contacts.recent.points
+    }
+
+    /// Keeps touches for records that are made at steps that are multiples of `every`.
+    pub fn keep_touches(&mut self, every: u64) {
+        self.contacts.recent.every_steps = every;
     }
 
     /// Smallest distances so far, from each part of the robot to each thing that it could hit; none when they are not watched.

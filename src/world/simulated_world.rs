@@ -170,6 +170,7 @@ impl World {
         }
         self.read_joints();
         let time_s = self.time_s();
+        self.contacts.recent.begin(self.step);
         self.contacts.record(&self.engine, &self.parts, &self.movable, time_s);
         self.update_held();
         self.watch_step(time_s);

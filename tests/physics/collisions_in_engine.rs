@@ -26,10 +26,15 @@ pub fn scenario(block: [f64; 2]) -> String {
 /// How near hard parts that press on each other are (m): the engine keeps a pair that touches a hair apart.
 const TOUCH_M: f64 = 5e-5;
 
-fn run(block: [f64; 2]) -> (Experiment, RunOutcome, Vec<Criterion>) {
+/// The scenario, run and judged.
+pub fn run(block: [f64; 2]) -> (Experiment, RunOutcome, Vec<Criterion>) {
+    run_of(&scenario(block))
+}
+
+fn run_of(text: &str) -> (Experiment, RunOutcome, Vec<Criterion>) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.toml");
-    fs::write(&path, scenario(block)).expect("written");
+    fs::write(&path, text).expect("written");
     let scenario = Scenario::load(&path, &LoadOptions::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let Work::Arm(experiment) = scenario.work else { panic!("no arm") };
     let outcome = simulation::run(&experiment, &Silent).expect("it runs");
@@ -84,4 +89,34 @@ fn a_block_beside_the_way_is_passed_at_the_distance_of_brute_force() {
         let truth = brute.iter().filter(|one| one.link == clearance.a).map(|one| one.least_m).fold(f64::INFINITY, f64::min);
         assert!((clearance.min_distance_m - truth).abs() < allowed_m(truth), "{clearance:?} {truth}");
     }
+}
+
+/// Contract: a run that is recorded at every tenth step tells of each pair that touches the deepest of the ten touches that the same run tells when
+/// every step is recorded, and between them nothing else; the deepest of all is the point of the pair's contact.
+#[test]
+fn a_record_tells_the_deepest_touch_of_each_pair_since_the_record_before() {
+    let (_, every, _) = run(IN_THE_WAY);
+    let (_, tenth, _) = run_of(&scenario(IN_THE_WAY).replace("log_rate_hz = 1000", "log_rate_hz = 100"));
+    assert_eq!(every.state_hash, tenth.state_hash, "one run, recorded twice");
+    assert_eq!(every.collisions, tenth.collisions);
+    let mut told = vec![(f64::INFINITY, nalgebra::Point3::origin()); tenth.collisions.len()];
+    for record in &tenth.steps {
+        let since = |step: u64| step + 10 > record.step && step <= record.step;
+        let mut deepest: Vec<_> = every.steps.iter().filter(|one| since(one.step)).flat_map(|one| one.touches.clone()).collect();
+        deepest.sort_by(|a, b| a.episode.cmp(&b.episode).then(a.distance_m.total_cmp(&b.distance_m)));
+        deepest.dedup_by_key(|touch| touch.episode);
+        let mut touches = record.touches.clone();
+        touches.sort_by_key(|touch| touch.episode);
+        assert_eq!(touches, deepest, "step {}", record.step);
+        for touch in touches {
+            let deepest = &mut told[touch.episode];
+            if touch.distance_m < deepest.0 {
+                *deepest = (touch.distance_m, touch.point);
+            }
+        }
+    }
+    let refused = tenth.collisions.iter().zip(&told).filter(|(contact, _)| !contact.allowed).map(|(contact, (_, point))| {
+        assert_eq!(*point, contact.deepest_point, "{contact:?}");
+    });
+    assert!(refused.count() > 0, "something touches");
 }

@@ -29,7 +29,7 @@ pub fn compared() -> RunOutcome {
 fn written(outcome: &RunOutcome) -> Vec<Chunk> {
     let folder = TempDir::new().expect("a folder can be made");
     let path = folder.path().join("recording.rrd");
-    write_recording(&path, &experiment(), outcome).expect("the recording is written");
+    write_recording(&path, &experiment(), outcome, "").expect("the recording is written");
     chunks(&path)
 }
 

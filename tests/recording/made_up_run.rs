@@ -136,6 +136,7 @@ fn record(i: usize, bodies: usize, objects: usize) -> StepRecord {
         },
         bodies: (0..bodies).map(|body| if body == 0 { Isometry3::identity() } else { pose(body as f64) }).collect(),
         objects: (0..objects).map(|object| if object == 3 { pose(0.6) } else { Isometry3::identity() }).collect(),
+        touches: Vec::new(),
         kinetic_energy_j: a * a,
     }
 }

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "rerun")]
 pub mod beside;
+mod contacts;
 mod documented;
 #[cfg(feature = "rerun")]
 mod live_recording;

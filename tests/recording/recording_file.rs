@@ -18,7 +18,7 @@ use super::read_rrd::{chunks, experiment, messages, rows, texts};
 fn written(outcome: &RunOutcome) -> (TempDir, PathBuf) {
     let folder = TempDir::new().expect("a folder can be made");
     let path = folder.path().join("recording.rrd");
-    write_recording(&path, &experiment(), outcome).expect("the recording is written");
+    write_recording(&path, &experiment(), outcome, "").expect("the recording is written");
     (folder, path)
 }
 
@@ -75,6 +75,23 @@ fn events_tell_what_happened_in_order() {
     ];
     let timed = expected.map(|(step, text)| (nanoseconds(step), format!("{:.2} s: {text}", 0.05 * step as f64)));
     assert_eq!(found, timed);
+    // Beside the scene stands what has happened until then, the last one first.
+    let so_far = texts(&chunks(&path), &entity_path::EVENTS_SO_FAR, &rerun::TextDocument::descriptor_text());
+    let until = |end: usize| timed[..end].iter().rev().map(|(_, text)| text.as_str()).collect::<Vec<_>>().join("\n");
+    assert_eq!(so_far, (0..timed.len()).map(|i| (timed[i].0, until(i + 1))).collect::<Vec<_>>());
+}
+
+/// Contract: the page below the scene says how the run ended, in the words that were given.
+#[test]
+fn the_result_is_told() {
+    let folder = TempDir::new().expect("a folder can be made");
+    let path = folder.path().join("recording.rrd");
+    write_recording(&path, &experiment(), &outcome(), "made_up, seed 1: passed").expect("the recording is written");
+    let result = chunks(&path).into_iter().filter(|chunk| *chunk.entity_path() == entity_path::RESULT.path());
+    let text = rerun::TextDocument::descriptor_text().component;
+    let told: Vec<String> =
+        result.flat_map(|chunk| chunk.iter_slices::<String>(text).map(|texts| texts[0].to_string()).collect::<Vec<_>>()).collect();
+    assert_eq!(told, ["made_up, seed 1: passed"]);
 }
 
 /// Contract: all states of a plot are one entity, of each the upper and the lower half of its ellipse: at two standard deviations of the
@@ -143,10 +160,10 @@ fn runs_without_states_or_steps_are_recorded_too() {
 
 #[test]
 fn a_recording_that_cannot_be_written_names_the_file() {
-    let error = write_recording(Path::new("/nowhere/recording.rrd"), &experiment(), &outcome()).unwrap_err();
+    let error = write_recording(Path::new("/nowhere/recording.rrd"), &experiment(), &outcome(), "").unwrap_err();
     assert!(matches!(error, RecordingError::Io { .. }) && error.to_string().contains("/nowhere/recording.rrd"), "{error}");
     if cfg!(target_os = "linux") {
-        let error = write_recording(Path::new("/dev/full"), &experiment(), &outcome()).expect_err("the disk is full");
+        let error = write_recording(Path::new("/dev/full"), &experiment(), &outcome(), "").expect_err("the disk is full");
         assert!(error.to_string().contains("/dev/full"), "{error}");
     }
 }
@@ -218,7 +235,7 @@ fn a_person_who_does_not_help_has_no_force() {
         let mut experiment = experiment();
         experiment.execution.help = help;
         let path = folder.path().join(format!("{helps}.rrd"));
-        write_recording(&path, &experiment, &outcome()).expect("the recording is written");
+        write_recording(&path, &experiment, &outcome(), "").expect("the recording is written");
         let chunks = chunks(&path);
         assert_eq!(chunks.iter().any(|chunk| *chunk.entity_path() == entity_path::PERSON.of(&["x"])), helps);
         let keys = chunks.iter().filter(|chunk| *chunk.entity_path() == entity_path::FORCE_COLORS.path());

@@ -14,10 +14,9 @@ use super::teaching_figure::Lessons;
 use super::workplace::Workplace;
 use super::{
     baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,
-    replay_figure, robot_figure, scene_figure, spread_figure, state_figure, task_states, teaching_figure,
+    replay_figure, robot_figure, scene_figure, scene_key, spread_figure, state_figure, task_states, teaching_figure,
 };
 use crate::learning::ShapingKind;
-use crate::learning::cpdmp::{CouplingMode, CouplingSettings};
 use crate::robot::{RobotModel, Shape};
 use crate::simulation::{Beside, Experiment, Help, LessonRecord, RunOutcome};
 use crate::world::support_height_m;
@@ -54,8 +53,9 @@ impl Chapters<'_> {
             taught,
             baseline: self.compares(),
             beside: self.beside,
-            states: (learning.shaping != ShapingKind::Lwr).then(|| colors_of_states(&execution.coupling)),
+            states: (learning.shaping != ShapingKind::Lwr).then(|| scene_key::colors_in_title(&execution.coupling)),
             person: execution.help != Help::None,
+            scenario: &self.experiment.name,
         };
         let (blueprint, properties) = layout::layout(&shown, &self.ranges, play)?;
         blueprint_property::send(&self.stream, APPLICATION, &blueprint, &properties)
@@ -80,6 +80,7 @@ impl Chapters<'_> {
         let (recorder, camera) = (self.recorder(&[]), self.camera());
         recorder.always(WORLD.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
         guide::log_guide(&recorder, self.experiment, outcome)?;
+        scene_key::log_key(&recorder, self.told(outcome), &task_states::betas(self.experiment, &outcome.skill)?)?;
         replay_figure::log_replays(&recorder, &outcome.dataset, Arrow::seen_by(&camera))?;
         paths::log_known(&recorder, outcome, (self.duration_s, &camera))?;
         if self.compares() {
@@ -99,11 +100,15 @@ impl Chapters<'_> {
         scene_figure::log_objects(&recorder, self.experiment, records)?;
         paths::log_executed(&recorder, records, &camera)?;
         state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, &camera))?;
-        let told = Told { expected: outcome.skill.force.is_some(), person: self.experiment.execution.help != Help::None };
-        force_figure::log_forces(&recorder, records, told, &camera)?;
+        force_figure::log_forces(&recorder, records, self.told(outcome), &camera)?;
         lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
+    }
+
+    /// The result in words; none while the run goes on.
+    pub fn result(&self, result: Option<&str>) -> Result<(), Fault> {
+        scene_key::log_result(&self.recorder(&[]), self.experiment, result)
     }
 
     /// What is known when it is over.
@@ -117,6 +122,11 @@ impl Chapters<'_> {
             beside::log_beside(&self.recorder(&one.outcome.steps), one, index, &self.camera())?;
         }
         Ok(())
+    }
+
+    /// Which forces there are.
+    fn told(&self, outcome: &RunOutcome) -> Told {
+        Told { expected: outcome.skill.force.is_some(), person: self.experiment.execution.help != Help::None }
     }
 
     /// Whether the baseline's plan is shown: where nothing was executed beside the run, which says more.
@@ -140,15 +150,6 @@ impl Chapters<'_> {
         let support_m = supports_m.reduce(f64::min).unwrap_or(0.0);
         let lowest_m = lowest_m(robot);
         if lowest_m <= support_m { lowest_m } else { support_m - TABLE_HEIGHT_M }
-    }
-}
-
-/// The colours that states can have in this mode of the coupling. Titles have no room for others.
-fn colors_of_states(coupling: &CouplingSettings) -> &'static str {
-    match coupling.mode {
-        CouplingMode::MinimiseForceError => "; minimising force violet",
-        CouplingMode::Comply => "; stiff green, complying purple",
-        CouplingMode::PerState(_) => "; stiff green, complying purple, minimising force violet",
     }
 }
 

@@ -1,6 +1,8 @@
 //! What happened, in words: one line per event, in the order of time.
 
-use super::entity_path::EVENTS;
+use rerun::TextDocument;
+
+use super::entity_path::{EVENTS, EVENTS_SO_FAR};
 use super::lanes::{CLOSED, acting_beta, beta_in_words, holds};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{RunOutcome, StepRecord};
@@ -23,17 +25,36 @@ pub(super) enum Kind {
 
 /// Logs the events of a run that come after `after_s` (s), or all of them.
 pub(super) fn log_events(recorder: &Recorder, outcome: &RunOutcome, after_s: Option<f64>) -> Result<(), Fault> {
-    let mut events = events(outcome);
-    events.retain(|event| after_s.is_none_or(|after_s| event.time_s > after_s));
+    let all = events(outcome);
+    let events: Vec<&Event> = all.iter().filter(|event| after_s.is_none_or(|after_s| event.time_s > after_s)).collect();
     let times: Vec<f64> = events.iter().map(|event| event.time_s).collect();
-    let level = |event: &Event| match event.kind {
+    let level = |event: &&Event| match event.kind {
         Kind::Note => rerun::TextLogLevel::INFO,
         Kind::Fault => rerun::TextLogLevel::ERROR,
     };
     let log = rerun::TextLog::update_fields()
         .with_many_text(events.iter().map(|event| format!("{:.2} s: {}", event.time_s, event.text)))
         .with_many_level(events.iter().map(level));
-    recorder.at_times(EVENTS.path(), &times, log.columns_of_unit_batches()?)
+    recorder.at_times(EVENTS.path(), &times, log.columns_of_unit_batches()?)?;
+    log_so_far(recorder, &all, after_s)
+}
+
+/// Logs of each moment in which something happens what has happened until then: beside a scene the viewer's own list shows what is to come, too.
+fn log_so_far(recorder: &Recorder, events: &[Event], after_s: Option<f64>) -> Result<(), Fault> {
+    let mut times: Vec<f64> = events.iter().map(|event| event.time_s).collect();
+    times.dedup();
+    times.retain(|time_s| after_s.is_none_or(|after_s| *time_s > after_s));
+    let pages = TextDocument::update_fields().with_many_text(times.iter().map(|time_s| until(events, *time_s)));
+    recorder.at_times(EVENTS_SO_FAR.path(), &times, pages.columns_of_unit_batches()?)
+}
+
+/// The events until a time (s), a line each, the last one first.
+fn until(events: &[Event], time_s: f64) -> String {
+    let line = |event: &Event| match event.kind {
+        Kind::Note => format!("{:.2} s: {}", event.time_s, event.text),
+        Kind::Fault => format!("ERROR {:.2} s: {}", event.time_s, event.text),
+    };
+    events.iter().rev().filter(|event| event.time_s <= time_s).map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// The events of a run, in the order of time.
@@ -67,7 +88,7 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
 const LEAST_DEPTH_M: f64 = 0.05e-3;
 
 /// How hard something touches (N), and how deep (m), as far as it is known.
-fn hard_and_deep(force_n: f64, depth_m: f64) -> String {
+pub(super) fn hard_and_deep(force_n: f64, depth_m: f64) -> String {
     let force = (!force_n.is_nan()).then(|| format!("up to {force_n:.1} N"));
     let depth = (depth_m >= LEAST_DEPTH_M).then(|| format!("{:.1} mm deep", depth_m * 1e3));
     let known: Vec<String> = force.into_iter().chain(depth).collect();

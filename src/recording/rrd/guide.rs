@@ -44,7 +44,10 @@ const MORE: &str = "\
   expected forces act at the tool, and are drawn beside it
 - the ellipsoid with the thick lines is that of the active state, which is also named beside the scene
 - the plot above the lanes says why: a state complies when the demonstrations disagree in it by more than the threshold sigma
-- white points touch and may, red ones must not; a white line is a smallest distance, while it happens
+- white points touch and may, red ones must not. Where a touch that must not be is deepest stays marked from its first moment to 0.8 s after its
+  last, and words beside the scene tell what touches, how hard and how deep in any single step of the engine; the plots show forces as the
+  controller estimates them at the logged steps. A white line is a smallest distance, while it happens
+- below the scene: how the run ended, what the colours mean, and what has happened until now; *All events* also lists what is to come
 - the forcing term is what bends the movement on its way; on the timeline `phase` it is over the phase, as in the paper's Fig. 6a
 
 The page **Teaching** shows the lessons, one after the other, and the page **Replay** what the arm felt when it repeated them alone. Each has a

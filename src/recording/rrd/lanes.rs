@@ -46,6 +46,9 @@ pub(super) fn beta_color(beta: f64) -> Color {
     }
 }
 
+/// What the lane of the states shows when the skill is over.
+const OVER: &str = "over";
+
 /// What a lane may show, and in which colour.
 type Legend = Vec<(String, Color)>;
 
@@ -67,7 +70,8 @@ pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], betas: &[f6
     lane(&COMPLIANCE_LANE, meanings.to_vec(), &|r| beta_in_words(acting_beta(r)).to_owned())?;
     if !betas.is_empty() {
         let states = betas.iter().enumerate().map(|(state, beta)| (state.to_string(), shade(beta_color(*beta), state)));
-        lane(&STATE_LANE, states.collect(), &|r| r.state.to_string())?;
+        let legend = states.chain([(OVER.to_owned(), palette::IDLE)]).collect();
+        lane(&STATE_LANE, legend, &|r| if is_over(r) { OVER.to_owned() } else { r.state.to_string() })?;
     }
     lane(&PERSON_LANE, of_two(("holds", palette::PERSON), "hands off"), &|r| pick(holds(r), "holds", "hands off"))?;
     let closed = |r: &StepRecord| r.gripper_command < CLOSED;

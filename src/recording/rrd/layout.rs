@@ -12,8 +12,8 @@ use super::beside;
 use super::blueprint_property::Properties;
 use super::camera::Camera;
 use super::entity_path::{
-    BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EXECUTED_PATH, Entity, FORCE_COLORS, REPLAY_NAME, REPLAY_TIME, SIM_TIME, TEACHING_NAME,
-    TEACHING_PATH, TEACHING_TIME, Timeline,
+    BESIDE_COLORS, BESIDE_PATH, ERROR_COLORS, EVENTS_SO_FAR, EXECUTED_PATH, Entity, FORCE_COLORS, REPLAY_NAME, REPLAY_TIME, RESULT,
+    SCENE_KEY, SIM_TIME, TEACHING_NAME, TEACHING_PATH, TEACHING_TIME, Timeline,
 };
 use super::paths::AXES;
 use super::recorder::Fault;
@@ -24,7 +24,6 @@ use crate::simulation::Beside;
 const PATHS: &str = "Taught grey, planned blue, executed orange";
 const PATHS_OF_BASELINE: &str = "Taught grey, planned by the LWR-DMP blue, executed orange";
 const BASELINE: &str = ", LWR-DMP black";
-const PERSON: &str = "; person vermilion";
 
 /// A coordinate that moves less than this (m) is not worth one of the two large plots.
 const MOVES_M: f64 = 0.02;
@@ -46,12 +45,14 @@ pub(super) struct Shown<'a> {
     pub states: Option<&'static str>,
     /// Whether the person helps.
     pub person: bool,
+    /// The scenario's name.
+    pub scenario: &'a str,
 }
 
 /// The layout with the properties of its views: one page for the execution, one for what came before it.
 pub(super) fn layout(shown: &Shown<'_>, ranges: &Ranges, play: PlayState) -> Result<(Blueprint, Properties), Fault> {
     let mut views = Views { ranges: ranges.clone(), ..Views::default() };
-    let execution = execution(&mut views, shown)?.with_name("Execution (timeline sim_time)");
+    let execution = execution(&mut views, shown)?.with_name(format!("Execution of {} (timeline sim_time)", shown.scenario));
     let teaching = teaching(&mut views, shown)?.with_name("Teaching (timeline teaching_time)");
     let replay = replay(&mut views)?.with_name("Replay (timeline replay_time)");
     let mut pages: Vec<ContainerLike> = vec![execution.into()];
@@ -73,8 +74,8 @@ fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> 
     let others = beside::for_title(shown.beside);
     // Only the baseline has no states.
     let paths = if shown.states.is_some() { PATHS } else { PATHS_OF_BASELINE };
-    let parts =
-        [(paths, true), (&others, true), (BASELINE, shown.baseline), (shown.states.unwrap_or_default(), true), (PERSON, shown.person)];
+    let states = shown.states.map(|states| format!("; {states}")).unwrap_or_default();
+    let parts = [(paths, true), (&others, true), (BASELINE, shown.baseline), (&states, true)];
     let title: String = parts.into_iter().filter_map(|(part, told)| told.then_some(part)).collect();
     let growing = std::iter::once(EXECUTED_PATH.path()).chain(shown.beside.iter().map(|one| BESIDE_PATH.of(&[&one.name])));
     let scene = views.scene(&title, "/world", growing, shown)?;
@@ -90,8 +91,16 @@ fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizontal, Fault> 
     let lanes = if shown.states.is_some() { "Compliance, gripper, person, state" } else { "Compliance, gripper, person" };
     right.push(StateTimelineView::new(lanes).with_origin("/lanes").into());
     shares.push(1.35);
-    let left = Vertical::new([scene.into(), views.events()?.into()]).with_row_shares(vec![5.0, 1.0]);
+    let left = Vertical::new([scene.into(), below_the_scene(views)?.into()]).with_row_shares(vec![3.6, 1.0]);
     Ok(Horizontal::new([left.into(), Vertical::new(right).with_row_shares(shares).into()]).with_column_shares(vec![1.25, 1.0]))
+}
+
+/// How the run ended, what the colours in the scene mean, and what has happened.
+fn below_the_scene(views: &mut Views) -> Result<Horizontal, Fault> {
+    let page = |name: &str, origin: &Entity| TextDocumentView::new(name).with_origin(origin.pattern);
+    let events: [ContainerLike; 2] = [page("Events until now", &EVENTS_SO_FAR).into(), views.events()?.into()];
+    let parts: [ContainerLike; 3] = [page("Result", &RESULT).into(), page("Key", &SCENE_KEY).into(), Tabs::new(events).into()];
+    Ok(Horizontal::new(parts).with_column_shares(vec![1.15, 1.0, 1.15]))
 }
 
 /// The coordinates, those for the large plots first: x and z, as in the paper, unless one of them hardly moves and y does; what moves comes first.

@@ -172,6 +172,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
                     chapters.layout(&outcome.robot, false, PlayState::Following)?;
                 }
                 chapters.skill(&outcome)?;
+                chapters.result(None)?;
                 planned = Some(outcome);
             }
             News::Stepped(record) => {

@@ -33,6 +33,7 @@ mod recorder;
 mod replay_figure;
 mod robot_figure;
 mod scene_figure;
+mod scene_key;
 mod spread_figure;
 mod state_figure;
 mod task_states;

@@ -60,14 +60,14 @@ pub(super) fn log_active(
     let unheard = !experiment.execution.coupling.enabled;
     let suffix = |beta: f64| if unheard && beta != 0.0 { ", but the coupling is off" } else { "" };
     let label = |i: &usize| match now(*i) {
-        (state, true) => format!("state {state}: the skill is over"),
+        (_, true) => format!("the skill is over: {}", beta_in_words(0.0)),
         (state, false) => format!("state {state}: {}{}", beta_in_words(states[state].beta), suffix(states[state].beta)),
     };
     let words = convert::vector(&camera.words(0));
     let labels = Points3D::update_fields()
         .with_positions(active.iter().map(|_| words))
         .with_labels(changes.iter().map(label))
-        .with_colors(active.iter().map(|i| palette::light(beta_color(states[*i].beta))));
+        .with_colors(changes.iter().map(|i| palette::light(beta_color(if now(*i).1 { 0.0 } else { states[now(*i).0].beta }))));
     recorder.at_times(ACTIVE_LABEL.path(), &times, labels.columns_of_unit_batches()?)?;
     recorder.always(ACTIVE_LABEL.path(), &Points3D::update_fields().with_radii([0.0]).with_show_labels(true))?;
     let look = Ellipsoids3D::update_fields().with_line_radii([Radius::new_ui_points(2.0)]);

@@ -106,7 +106,7 @@ impl Views {
     }
 
     pub fn events(&mut self) -> Result<View, Fault> {
-        let view = view(TextLogView::new("Events").with_origin("/events"))?;
+        let view = view(TextLogView::new("All events").with_origin("/events"))?;
         let column = |kind| TextLogColumn { kind, visible: true.into() };
         // The texts begin with the time: the viewer's own column of it is too narrow for five digits.
         let time = TimelineColumn { timeline: SIM_TIME.name.into(), visible: false.into() };

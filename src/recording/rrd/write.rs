@@ -13,12 +13,12 @@ use super::workplace::Workplace;
 use crate::recording::RecordingError;
 use crate::simulation::{Experiment, RunOutcome, skill_duration_s};
 
-/// Writes the recording of a run to `path` (`.rrd`): its data, and the layout that it opens with.
+/// Writes the recording of a run to `path` (`.rrd`): its data, its result in words, and the layout that it opens with.
 ///
 /// # Errors
 /// When the file cannot be created or written to its end.
-pub fn write_recording(path: &Path, experiment: &Experiment, outcome: &RunOutcome) -> Result<(), RecordingError> {
-    let recorded = record(experiment, outcome).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
+pub fn write_recording(path: &Path, experiment: &Experiment, outcome: &RunOutcome, result: &str) -> Result<(), RecordingError> {
+    let recorded = record(experiment, outcome, result).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
     save(path, &recorded)
 }
 
@@ -33,7 +33,7 @@ pub(super) fn save(path: &Path, recorded: &[u8]) -> Result<(), RecordingError> {
 }
 
 /// The content of the file. It is made in memory: on a full disk rerun's own writer of files may wait for ever.
-fn record(experiment: &Experiment, outcome: &RunOutcome) -> Result<Vec<u8>, Fault> {
+fn record(experiment: &Experiment, outcome: &RunOutcome, result: &str) -> Result<Vec<u8>, Fault> {
     // Equal identities are shown as one recording: runs that differ must not share one.
     let identity = format!("{}-{}-{:016x}", experiment.name, experiment.seed, outcome.state_hash);
     let (stream, storage) = RecordingStreamBuilder::new(APPLICATION).recording_id(identity).memory()?;
@@ -53,6 +53,7 @@ fn record(experiment: &Experiment, outcome: &RunOutcome) -> Result<Vec<u8>, Faul
     chapters.skill(outcome)?;
     chapters.execution(outcome, 0)?;
     chapters.end(outcome)?;
+    chapters.result(Some(result))?;
     stream.flush_blocking()?;
     let told = storage.take();
     chapters.layout(&outcome.robot, !outcome.lessons.is_empty(), PlayState::Paused)?;

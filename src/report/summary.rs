@@ -1,0 +1,30 @@
+//! The result of a run in a few lines, for a page beside its pictures.
+
+use super::table::figure;
+use super::{CriterionReport, RunReport, verdict};
+
+/// How the run ended and what was asked of it, in plain text: scenario, seed and outcome; then what is not plainly as it should be, each in a line
+/// of its own; then what is.
+pub fn summary(report: &RunReport) -> String {
+    let mut lines = vec![format!("{}, seed {}: {}", report.scenario, report.seed, report.outcome.name().replace('_', " "))];
+    lines.extend(report.error.clone());
+    let (plain, others): (Vec<_>, Vec<_>) = report.criteria.iter().partition(|criterion| verdict::words(criterion) == verdict::OK);
+    lines.extend(others.into_iter().map(criterion));
+    if !plain.is_empty() {
+        let names: Vec<&str> = plain.iter().map(|criterion| criterion.name.as_str()).collect();
+        lines.push(format!("{}: {}", verdict::OK, names.join(", ")));
+    }
+    // What a planar experiment touches is in its comparison.
+    let refused = report.collisions.iter().filter(|contact| !contact.allowed).count();
+    lines.extend((report.comparison.is_none() && refused > 0).then(|| format!("contacts not allowed: {refused}")));
+    lines.join("\n")
+}
+
+/// The measured value is told with its limit: `toy_in_basket ok: fails, as expected (0.39 m, limit 0.09 m)`.
+fn criterion(criterion: &CriterionReport) -> String {
+    let numbers = criterion.value.zip(criterion.limit).map_or(String::new(), |(value, limit)| {
+        let unit = if criterion.unit == "1" { String::new() } else { format!(" {}", criterion.unit) };
+        format!(" ({}{unit}, limit {}{unit})", figure(value), figure(limit))
+    });
+    format!("{} {}{numbers}", criterion.name, verdict::words(criterion))
+}
