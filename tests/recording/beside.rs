@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use rerun::log::Chunk;
 use tempfile::TempDir;
 
+use super::contacts::TOUCHING;
 use super::documented::assert_documented;
 use super::made_up_run::outcome;
 use super::read_rrd::{chunks, experiment, rows};
@@ -86,9 +87,9 @@ fn the_plan_of_the_baseline_gives_way_to_executed_runs() {
     assert!(!without.iter().any(beside));
 }
 
-/// Together, a recording with and one without a comparison hold everything that is documented, and nothing else.
+/// Together, a recording with and one without a comparison, and one in which something touches that must not, hold everything that is documented, and nothing else.
 #[test]
 fn entities_are_those_that_are_documented() {
-    let chunks: Vec<Chunk> = [written(&compared()), written(&outcome())].concat();
+    let chunks: Vec<Chunk> = [written(&compared()), written(&outcome()), TOUCHING.1.clone()].concat();
     assert_documented(&chunks, &ENTITIES.iter().map(|entity| entity.pattern).collect::<Vec<_>>());
 }

@@ -121,5 +121,5 @@ fn a_skill_that_is_over_minimises_nothing() {
     let events = texts(&chunks, &entity_path::EVENTS, &rerun::TextLog::descriptor_text());
     assert!(events.iter().any(|(_, text)| text == "5.60 s: the arm is stiff from here (state 4)"), "{events:?}");
     let label = texts(&chunks, &entity_path::ACTIVE_LABEL, &rerun::Points3D::descriptor_labels());
-    assert_eq!(label.last(), Some(&(112 * 50_000_000, "state 4: the skill is over".to_owned())), "{label:?}");
+    assert_eq!(label.last(), Some(&(112 * 50_000_000, "the skill is over: stiff".to_owned())), "{label:?}");
 }
