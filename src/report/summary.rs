@@ -20,11 +20,11 @@ pub fn summary(report: &RunReport) -> String {
     lines.join("\n")
 }
 
-/// The measured value is told with its limit: `toy_in_basket ok: fails, as expected (0.39 m, limit 0.09 m)`.
+/// The measured value is told with its limit: `toy_in_basket fails, as expected (0.39 m, limit 0.09 m)`.
 fn criterion(criterion: &CriterionReport) -> String {
     let numbers = criterion.value.zip(criterion.limit).map_or(String::new(), |(value, limit)| {
         let unit = if criterion.unit == "1" { String::new() } else { format!(" {}", criterion.unit) };
         format!(" ({}{unit}, limit {}{unit})", figure(value), figure(limit))
     });
-    format!("{} {}{numbers}", criterion.name, verdict::words(criterion))
+    format!("{} {}{numbers}", criterion.name, verdict::words(criterion).trim_start_matches("ok: "))
 }
