@@ -108,7 +108,10 @@ fn millimetres(value_m2: f64) -> f64 {
 }
 
 fn switch(run: &ArmRun) -> Chart {
-    let mut chart = panel(run, "Compliance of the active state, and how far the coupling is on", "beta, activation (-)");
+    // A state may be one that complies in a run that does not let it.
+    let how_far =
+        if run.steps.iter().any(|step| step.activation > 0.0) { ", and how far the coupling is on" } else { "; the coupling is never on" };
+    let mut chart = panel(run, &format!("Compliance of the active state{how_far}"), "beta, activation (-)");
     // Pieces of one colour, each up to where the next one begins.
     let (mut from, minimises) = (0, |step: &StepRecord| step.acting_beta() > 0.0);
     for piece in run.steps.chunk_by(|a, b| minimises(a) == minimises(b)) {

@@ -17,7 +17,7 @@ const AXES: [(usize, &str); 2] = [(0, "x"), (1, "y")];
 /// Gaussians are drawn at this many standard deviations.
 const DEVIATIONS: f64 = 2.0;
 /// Width of the model's lines (pt): the borders of its states are far thinner.
-const MODEL_PT: f64 = 1.9;
+const MODEL_PT: f64 = 1.6;
 
 /// Two panels, x above y: what demonstrations ask for, and what `method` makes of it for taught situations and for new ones, in its colour. Thin
 /// ellipses are the states at two standard deviations, for every situation that is drawn. Chains have a colour each. Where obstacles differ in

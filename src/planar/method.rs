@@ -45,7 +45,7 @@ impl Method {
         match self {
             Self::Cpdmp => "CPDMP",
             Self::CpdmpProduct => "CPDMP, side x width",
-            Self::CpdmpChain => "CPDMP, each chain",
+            Self::CpdmpChain => "CPDMP by chain",
             Self::LwrDmp => "LWR-DMP",
             Self::TpGmm => "TP-GMM",
         }

@@ -104,6 +104,7 @@ fn only_what_happened_is_drawn() {
         step.beta = -step.beta;
     }
     let figure = arm_compliance(&parts.run());
+    assert!(!figure.panels.iter().any(|panel| panel.title.contains("never on")));
     assert!(figure.panels.iter().all(|panel| marks(panel, "of the person").is_empty() && !panel.title.contains("move the tool")));
     let steps = &parts.outcome.steps;
     let window = [steps[COMPLIES.start].time_s, steps[COMPLIES.end - 1].time_s];
@@ -112,6 +113,8 @@ fn only_what_happened_is_drawn() {
         assert!(matches!(bands[..], [Shape::Band { stretch, .. }] if *stretch == window), "{bands:?}");
         assert!(marks(panel, "the arm complies").is_empty());
     }
+    parts.outcome.steps.iter_mut().for_each(|step| step.activation = 0.0);
+    assert!(arm_compliance(&parts.run()).panels.iter().any(|panel| panel.title.contains("the coupling is never on")));
 }
 
 /// Contract: the number of a state stands above its bar, and on no other number and not on the threshold.

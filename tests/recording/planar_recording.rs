@@ -141,7 +141,7 @@ fn the_page_says_what_is_shown() {
     let outcome = obstacle_avoidance(&settings, 0, &|| true).expect("it can be learned");
     let one_sided = guide(&recorded(&outcome));
     let absent = ["chain", "Each width", "wider obstacles", "transitions", "(4)"].map(|said| (said, false));
-    let shown = ["blue CPDMP, orange LWR-DMP", "yellow ones", "Thick lines", "Thin ellipses"].map(|said| (said, true));
+    let shown = ["blue: CPDMP; orange: LWR-DMP", "yellow ones", "Thick lines", "Thin ellipses"].map(|said| (said, true));
     for (said, there) in absent.into_iter().chain(shown) {
         assert_eq!(one_sided.contains(said), there, "{said}: {one_sided}");
     }

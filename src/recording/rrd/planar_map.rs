@@ -7,7 +7,7 @@ use super::planar_entity::{DEMONSTRATIONS, GOALS, MAP, OBSTACLES};
 use super::planar_grid::log_grid;
 use super::planar_movements::Drawn;
 use super::planar_recorder::PlanarRecorder;
-use super::planar_shapes::{closed, points, strips};
+use super::planar_shapes::{ON_TOP, closed, points, strips};
 use super::recorder::Fault;
 use crate::math::ellipse_outline;
 use crate::planar::{Obstacle, PlanarOutcome, obstacles};
@@ -54,5 +54,8 @@ fn log_goals(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Result<(), F
     let goals = goals(outcome);
     let colors = goals.iter().map(|(_, taught)| if *taught { palette::IDLE } else { palette::rgb(crate::palette::YELLOW) });
     let places: Vec<[f64; 2]> = goals.iter().map(|(goal, _)| *goal).collect();
-    recorder.always(GOALS.path(), &Points2D::new(points(&places)).with_colors(colors).with_radii([Radius::new_ui_points(4.0)]))
+    recorder.always(
+        GOALS.path(),
+        &Points2D::new(points(&places)).with_colors(colors).with_radii([Radius::new_ui_points(4.0)]).with_draw_order(ON_TOP),
+    )
 }

@@ -7,7 +7,7 @@ use rerun::{Color, LineStrips2D, Points2D, Radius};
 use super::palette;
 use super::planar_entity::{COLLISIONS, PLACES, TAUGHT, UNSEEN};
 use super::planar_recorder::PlanarRecorder;
-use super::planar_shapes::{point, points, strips};
+use super::planar_shapes::{ON_TOP, point, points, strips};
 use super::recorder::Fault;
 use crate::planar::{Case, Guidance, Method, Movement, Obstacle, PlanarOutcome, rank};
 
@@ -18,7 +18,7 @@ struct Look {
     narrowest_pt: f32,
     /// How much wider the path past the next wider obstacle is (pt).
     wider_pt: f32,
-    /// What has more lies on top (-); the viewer gives lines 20 and points 30.
+    /// What has more lies on top (-); other lines have 20, but what has no order lies below all that has one.
     order: f32,
 }
 
@@ -49,7 +49,10 @@ impl<'a> Drawn<'a> {
             self.recorder.always(entity.of(&names), &self.paths(taught, look))?;
         }
         let hits = self.movements().filter(|(_, movement)| movement.collides).filter_map(|(case, movement)| deepest(case, movement));
-        let hits = Points2D::new(points(&hits.collect::<Vec<_>>())).with_colors([palette::PERSON]).with_radii([Radius::new_ui_points(6.0)]);
+        let hits = Points2D::new(points(&hits.collect::<Vec<_>>()))
+            .with_colors([palette::PERSON])
+            .with_radii([Radius::new_ui_points(6.0)])
+            .with_draw_order(ON_TOP);
         self.recorder.always(COLLISIONS.of(&names), &hits)?;
         self.places(&names)
     }
@@ -84,7 +87,8 @@ impl<'a> Drawn<'a> {
         let columns = Points2D::update_fields().with_positions(rows).columns(std::iter::repeat_n(paths.len(), samples))?;
         let look = Points2D::update_fields()
             .with_colors(self.movements().map(|(case, _)| self.color(case)))
-            .with_radii([Radius::new_ui_points(4.0)]);
+            .with_radii([Radius::new_ui_points(4.0)])
+            .with_draw_order(ON_TOP + 1.0);
         self.recorder.always(entity.clone(), &look)?;
         self.recorder.over_phase(entity, &inputs, columns)
     }

@@ -30,23 +30,23 @@ fn plane(outcome: &PlanarOutcome) -> String {
 
 /// What colours of paths mean: of several obstacles each has one, and so has what passes it; else each method has one.
 fn colors(outcome: &PlanarOutcome, obstacles: &[Obstacle]) -> String {
-    let of_obstacles: Vec<String> = obstacles.iter().filter_map(|one| Some(format!("{} {}", one.look?.1, one.name()))).collect();
+    let of_obstacles: Vec<String> = obstacles.iter().filter_map(|one| Some(format!("{}: {}", one.look?.1, one.name()))).collect();
     if of_obstacles.is_empty() {
         let all = outcome.guidances().into_iter().flat_map(|guidance| outcome.methods_with(guidance));
-        return format!("each method has a colour: {}.", listed(all));
+        return format!("each method has a colour ({}).", listed(all));
     }
     format!(
-        "each obstacle has a colour, and so has what passes it: {}. Where paths lie on each other, those past wider obstacles are wider lines below.",
+        "each obstacle has a colour, and so has what passes it ({}). Where paths lie on each other, those past wider obstacles are wider lines below.",
         of_obstacles.join("; ")
     )
 }
 
-/// `blue CPDMP, orange LWR-DMP`, each once.
+/// `blue: CPDMP; orange: LWR-DMP`, each once.
 fn listed(methods: impl Iterator<Item = Method>) -> String {
     let mut all: Vec<Method> = methods.collect();
     all.sort();
     all.dedup();
-    all.into_iter().map(|method| format!("{} {}", method.look().1, method.title())).collect::<Vec<_>>().join(", ")
+    all.into_iter().map(|method| format!("{}: {}", method.look().1, method.title())).collect::<Vec<_>>().join("; ")
 }
 
 fn plots(outcome: &PlanarOutcome) -> String {
@@ -58,8 +58,8 @@ fn plots(outcome: &PlanarOutcome) -> String {
     let pages =
         if widths { "Each width of the obstacle has a page." } else { "Situations that were demonstrated and others have a page each." };
     format!(
-        "Plots show forcing terms over the phase. Grey: what the demonstrations ask for (eq. 4 of the paper). Thick lines: what the model makes of it, \
-         {}{of_chain}. Thin ellipses: the states of the model at two standard deviations, green{states_of_chain}. {pages}",
+        "Plots show forcing terms over the phase. Grey: what the demonstrations ask for (eq. 4 of the paper). Thick lines: what the model makes of it \
+         ({}{of_chain}). Thin ellipses: the states of the model at two standard deviations, green{states_of_chain}. {pages}",
         listed(whole)
     )
 }

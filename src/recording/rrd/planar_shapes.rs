@@ -2,6 +2,9 @@
 
 use rerun::{Color, LineStrips2D, Radius};
 
+/// The order of points (-): they lie on every path.
+pub(super) const ON_TOP: f32 = 30.0;
+
 /// An outline (m) as a line that ends where it starts.
 pub(super) fn closed(mut outline: Vec<[f64; 2]>) -> Vec<[f32; 2]> {
     outline.extend(outline.first().copied());
