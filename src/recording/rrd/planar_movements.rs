@@ -52,7 +52,7 @@ impl<'a> Drawn<'a> {
         let hits = Points2D::new(points(&hits.collect::<Vec<_>>()))
             .with_colors([palette::PERSON])
             .with_radii([Radius::new_ui_points(6.0)])
-            .with_draw_order(ON_TOP);
+            .with_draw_order(ON_TOP + 1.0);
         self.recorder.always(COLLISIONS.of(&names), &hits)?;
         self.places(&names)
     }
@@ -88,7 +88,7 @@ impl<'a> Drawn<'a> {
         let look = Points2D::update_fields()
             .with_colors(self.movements().map(|(case, _)| self.color(case)))
             .with_radii([Radius::new_ui_points(4.0)])
-            .with_draw_order(ON_TOP + 1.0);
+            .with_draw_order(ON_TOP);
         self.recorder.always(entity.clone(), &look)?;
         self.recorder.over_phase(entity, &inputs, columns)
     }
