@@ -95,7 +95,7 @@ fn vouched(run: &JudgedRun, scenario: &Scenario, folder: &RunFolder, started: Sy
 fn recordings(left: &Left, scenario: &Scenario, report: &RunReport, room: &mut Room<'_>) {
     match (left, &scenario.work) {
         (Left::Arm(left), Work::Arm(experiment)) => of_arm((left, experiment), scenario.recording, report, room),
-        (Left::Planar(left), Work::Planar(run)) => planar_files::write(left, run, scenario.recording, room),
+        (Left::Planar(left), Work::Planar(run)) => planar_files::write((left, run), scenario.recording, report, room),
         _ => room.failures.push("what was run is not what the scenario asks for".to_owned()),
     }
 }

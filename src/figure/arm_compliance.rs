@@ -29,12 +29,12 @@ pub fn arm_compliance(run: &ArmRun) -> Figure {
     Figure { title: format!("Compliance: {}", run.name), panels, columns: 1, panel_size_pt: PANEL_PT }
 }
 
-/// A panel over the time of the whole run, with its compliant windows.
+/// A panel over the time of the whole run, with its compliant windows and the time after the skill.
 fn panel(run: &ArmRun, title: &str, vertical: &str) -> Chart {
     let mut horizontal = Axis::new("time (s)");
     horizontal.includes = vec![0.0, run.steps.last().map_or(run.duration_s, |step| step.time_s)];
     let mut chart = Chart::plot(title, [horizontal, Axis::new(vertical)]);
-    chart.marks.extend(run.compliant_windows());
+    chart.marks.extend(run.stretches());
     chart
 }
 
@@ -108,13 +108,16 @@ fn millimetres(value_m2: f64) -> f64 {
 }
 
 fn switch(run: &ArmRun) -> Chart {
-    let mut chart = panel(run, "Compliance of the active state, and how far the coupling is on", "beta, activation (-)");
+    // A state may be one that complies in a run that does not let it.
+    let how_far =
+        if run.steps.iter().any(|step| step.activation > 0.0) { ", and how far the coupling is on" } else { "; the coupling is never on" };
+    let mut chart = panel(run, &format!("Compliance of the active state{how_far}"), "beta, activation (-)");
     // Pieces of one colour, each up to where the next one begins.
-    let (mut from, minimises) = (0, |step: &StepRecord| step.beta > 0.0);
+    let (mut from, minimises) = (0, |step: &StepRecord| step.acting_beta() > 0.0);
     for piece in run.steps.chunk_by(|a, b| minimises(a) == minimises(b)) {
         let until = (from + piece.len() + 1).min(run.steps.len());
         let (legend, color) = if minimises(&piece[0]) { ("beta, minimises the force", MINIMISES) } else { ("beta", COMPLIES) };
-        chart.marks.push(Mark::line(legend, color, 2.2, over_time(&run.steps[from..until], |step| step.beta)));
+        chart.marks.push(Mark::line(legend, color, 2.2, over_time(&run.steps[from..until], StepRecord::acting_beta)));
         from += piece.len();
     }
     chart.marks.push(Mark::line("activation of the coupling", BLACK, 0.8, run.executed(|step| step.activation)));

@@ -25,11 +25,14 @@ pub fn arm_forces(run: &ArmRun) -> Figure {
     Figure { title: format!("Forces on the tool: {}", run.name), panels, columns, panel_size_pt }
 }
 
-/// What was measured, and what the run expected.
+/// What was measured, and what the run expected. The measure is smoother than what an engine solves for its contacts, and says so.
 fn felt(run: &ArmRun, axis: usize) -> Chart {
     let (name, title) = AXES[axis];
-    let mut chart = Chart::plot(title, [Axis::new("time (s)"), Axis::new(&format!("force {name} (N)"))]);
-    chart.marks.extend(run.compliant_windows());
+    let mut chart = Chart::plot(
+        &format!("{title}: smoothed estimate from the joints"),
+        [Axis::new("time (s)"), Axis::new(&format!("force {name} (N)"))],
+    );
+    chart.marks.extend(run.stretches());
     let measured = |step: &StepRecord| step.wrench[axis];
     chart.marks.extend(run.others(LINE_PT, |steps| Some(over_time(steps, measured))));
     chart.marks.push(Mark::line("measured", MEASURED, LINE_PT, run.executed(measured)));
@@ -44,7 +47,7 @@ fn unexpected(run: &ArmRun, axis: usize) -> Chart {
     let (name, title) = AXES[axis];
     let axes = [Axis::new("time (s)"), Axis::new(&format!("unexpected force {name} (N)"))];
     let mut chart = Chart::plot(&format!("{title}: measured less expected"), axes);
-    chart.marks.extend(run.compliant_windows());
+    chart.marks.extend(run.stretches());
     let unexpected = |step: &StepRecord| step.wrench[axis] - step.expected_force[axis];
     chart.marks.extend(run.others(LINE_PT, |steps| expects(steps).then(|| over_time(steps, unexpected))));
     chart.marks.push(Mark::line("executed, measured less expected", EXECUTED, LINE_PT, run.executed(unexpected)));

@@ -29,7 +29,7 @@ fn panel(run: &ArmRun, axis: usize) -> Chart {
     let (name, title) = AXES[axis];
     let column = format!("{name}_m");
     let mut chart = Chart::plot(title, [Axis::new("time (s)"), Axis::at_least(&format!("{name} (m)"), LEAST_RANGE_M)]);
-    chart.marks.extend(run.compliant_windows());
+    chart.marks.extend(run.stretches());
     chart.marks.extend(run.taught(&column).into_iter().map(|taught| Mark::line("taught", TAUGHT, 0.6, taught)));
     let of_column = run.skill.motion.columns.iter().position(|known| *known == column);
     if let (Some(of_column), Some(planned)) = (of_column, run.planned(&column)) {

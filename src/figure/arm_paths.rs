@@ -99,7 +99,7 @@ impl Paths<'_> {
             steps.iter().map(|step| [step.time_s, outside_mm(&Point3::from(step.tool.translation.vector))]).collect()
         };
         let mut chart = Chart::plot("Beside the arc", [Axis::new("time (s)"), Axis::new("distance from the arc, outwards (mm)")]);
-        chart.marks.extend(run.compliant_windows());
+        chart.marks.extend(run.stretches());
         let [x, y, z] = &self.planned;
         let planned = x.iter().zip(y).zip(z).map(|((x, y), z)| [x[0], outside_mm(&Point3::new(x[1], y[1], z[1]))]).collect();
         chart.marks.push(Mark::line("planned", PLANNED, PLANNED_PT, planned));

@@ -1,7 +1,5 @@
 //! What the figures of an arm's run are drawn from.
 
-use std::cmp::Ordering;
-
 use nalgebra::{DVector, Point3};
 
 use crate::demonstration::{Dataset, Trajectory};
@@ -133,20 +131,6 @@ impl<'a> ArmRun<'a> {
     /// A value of every record over time.
     pub(super) fn executed(&self, value: impl Fn(&StepRecord) -> f64) -> Curve {
         over_time(self.steps, value)
-    }
-
-    /// The stretches in which forces moved the arm, as marks: where it complied, and where it minimised the force error.
-    pub(super) fn compliant_windows(&self) -> impl Iterator<Item = Mark> + '_ {
-        let acts = |step: &StepRecord| if step.activation > 0.0 { step.beta.partial_cmp(&0.0) } else { None };
-        let windows = self.steps.chunk_by(move |a, b| acts(a) == acts(b));
-        windows.filter_map(move |window| {
-            let ends = [window.first()?.time_s, window.last()?.time_s];
-            match acts(window.first()?)? {
-                Ordering::Less => Some(Mark::band("the arm complies", COMPLIES, 0.13, ends)),
-                Ordering::Greater => Some(Mark::band("the arm minimises the force error", MINIMISES, 0.1, ends)),
-                Ordering::Equal => None,
-            }
-        })
     }
 }
 

@@ -13,7 +13,7 @@ use crate::palette::{BLACK, BLUE, BROWN, GREY, MAGENTA, Rgb, VERMILION, VIOLET, 
 const COLORS: [Rgb; 6] = [BLUE, VERMILION, MAGENTA, BROWN, VIOLET, YELLOW];
 
 /// One panel per column of the motion, a colour per taught setting: what its demonstrations demand (4), the skill's forcing and, at two
-/// standard deviations, the skill's states; on top of them the forcing in the setting of the execution. `None` when all were taught in one
+/// standard deviations, the skill's states; on top of them the forcing in the setting of the execution, under its name. `None` when all were taught in one
 /// setting, and for a skill that makes no difference between them.
 ///
 /// # Errors
@@ -32,7 +32,9 @@ pub fn arm_settings(run: &ArmRun) -> Result<Option<Figure>, LearningError> {
     let sequences = motion_sequences(run.dataset, run.learning)?;
     let curve = |theta: &Parameters| ForcingCurve::of(motion, &motion.parameters.resolve(theta)?);
     let curves = settings.iter().zip(COLORS).map(|(theta, _)| curve(theta)).collect::<Result<Vec<_>, _>>()?;
-    let asked = ForcingCurve::of(motion, &run.skill.request(&run.question)?.theta)?;
+    let theta = run.skill.request(&run.question)?.theta;
+    let asked = ForcingCurve::of(motion, &theta)?;
+    let executed = format!("{}, executed", name_of(motion.parameters.names.iter().zip(theta.iter().copied())));
     let panel = |j: usize| {
         let mut chart = panel_of(motion, j);
         // In the legend once, not in the colour of one of them.
@@ -43,9 +45,9 @@ pub fn arm_settings(run: &ArmRun) -> Result<Option<Figure>, LearningError> {
             chart.marks.extend(of_setting.map(|(_, sequence)| Mark::line("", color.lighter(0.4), 0.6, demanded(sequence, j))));
             let outlines = run.states.iter().filter_map(|state| curve.outline(motion, state.state, j));
             chart.marks.extend(outlines.map(|outline| Mark::faint_area("", color, outline)));
-            chart.marks.push(Mark::line(&name_of(theta), color, 1.4, curve.along(j)));
+            chart.marks.push(Mark::line(&name_of(theta.iter().map(|(name, value)| (name, *value))), color, 1.4, curve.along(j)));
         }
-        chart.marks.push(Mark::dashes("the setting of the execution", BLACK, 1.4, asked.along(j)));
+        chart.marks.push(Mark::dashes(&executed, BLACK, 1.4, asked.along(j)));
         chart
     };
     let panels = (0..motion.columns.len()).map(panel).collect();
@@ -53,7 +55,7 @@ pub fn arm_settings(run: &ArmRun) -> Result<Option<Figure>, LearningError> {
     Ok(Some(Figure { title, panels, columns: 1, panel_size_pt: PANEL_PT }))
 }
 
-/// `handle_y_m = 0.45, block_height_m = 0.2`.
-fn name_of(theta: &Parameters) -> String {
-    theta.iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
+/// `handle_y_m = 0.45, block_height_m = 0.2`, without the digits that a value has when it is read off an end of the movement.
+fn name_of<'a>(theta: impl Iterator<Item = (&'a String, f64)>) -> String {
+    theta.map(|(name, value)| format!("{name} = {}", (value * 1e6).round() / 1e6)).collect::<Vec<_>>().join(", ")
 }

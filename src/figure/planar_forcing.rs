@@ -6,8 +6,8 @@ use super::chart::{Axis, Chart, Figure};
 use super::mark::Mark;
 use super::transitions::chain_name;
 use crate::math::covariance_outline;
-use crate::palette::{GREY, MAGENTA, Rgb};
-use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian, chain_color, named};
+use crate::palette::GREY;
+use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian, named};
 
 /// Width and height of a panel (pt): of one for all situations, and of one of several.
 const PANEL_PT: [f64; 2] = [560.0, 230.0];
@@ -16,10 +16,12 @@ const SMALL_PANEL_PT: [f64; 2] = [360.0, 180.0];
 const AXES: [(usize, &str); 2] = [(0, "x"), (1, "y")];
 /// Gaussians are drawn at this many standard deviations.
 const DEVIATIONS: f64 = 2.0;
+/// Width of the model's lines (pt): the borders of its states are far thinner.
+const MODEL_PT: f64 = 1.6;
 
-/// Two panels, x above y: what demonstrations ask for, and what `method` makes of it for taught situations and for new ones. Ellipses are the
-/// states at two standard deviations, for every situation that is drawn. Chains have a colour each. Where obstacles differ in width, each
-/// width has two panels of its own side by side.
+/// Two panels, x above y: what demonstrations ask for, and what `method` makes of it for taught situations and for new ones, in its colour. Thin
+/// ellipses are the states at two standard deviations, for every situation that is drawn. Chains have a colour each. Where obstacles differ in
+/// width, each width has two panels of its own side by side.
 #[must_use]
 pub fn planar_forcing(title: &str, outcome: &PlanarOutcome, guidance: Guidance, method: Method) -> Figure {
     let (own, demonstrated): (Vec<&ForcingCurve>, Vec<&ForcingCurve>) =
@@ -49,31 +51,25 @@ fn panel(name: &str, axis: usize, method: Method, own: &[&ForcingCurve], demonst
     let mut chart = Chart::plot("", [Axis::new("phase input (-)"), Axis::new(&format!("forcing along {name} (m)"))]);
     let points = |curve: &ForcingCurve| curve.phase.iter().zip(&curve.forcing_m).map(|(u, f)| [*u, f[axis]]).collect();
     let outlines = own.iter().flat_map(|curve| {
-        let (name, color) = look(curve, method);
-        // A chain's colour is the same in every situation.
-        let name = curve.chain.map_or(name, chain_name);
-        curve.states.iter().map(move |state| Mark::faint_area(&format!("states of {name}"), color, outline(state, axis)))
+        let of = curve.chain.map_or(method.title().to_owned(), chain_name);
+        let (name, color) = (format!("states of {of}, two standard deviations"), curve.color_of_states());
+        curve.states.iter().map(move |state| Mark::faint_area(&name, color, outline(state, axis)))
     });
     chart.marks.extend(outlines);
     chart.marks.extend(demonstrated.iter().map(|curve| Mark::line("demonstrated", GREY, 0.8, points(curve))));
     for taught in [false, true] {
-        let lines = own.iter().filter(|curve| curve.taught == taught).map(|curve| {
-            let (name, color) = look(curve, method);
-            let draw = if taught { Mark::dashes } else { Mark::line };
-            draw(&name, color, 1.2, points(curve))
-        });
+        let draw = if taught { Mark::dashes } else { Mark::line };
+        let lines = own.iter().filter(|curve| curve.taught == taught);
+        let lines = lines.map(|curve| draw(&named_line(curve, method), curve.color(), MODEL_PT, points(curve)));
         chart.marks.extend(lines);
     }
     chart
 }
 
-/// What the legend calls a curve, and its colour.
-fn look(curve: &ForcingCurve, method: Method) -> (String, Rgb) {
-    let kind = if curve.taught { "taught" } else { "new" };
-    match curve.chain {
-        Some(chain) => (format!("{}, {kind}", chain_name(chain)), chain_color(chain)),
-        None => (format!("{}, {kind}", method.title()), if curve.taught { method.color() } else { MAGENTA }),
-    }
+/// What the legend calls the line of a curve.
+fn named_line(curve: &ForcingCurve, method: Method) -> String {
+    let of = curve.chain.map_or(method.title().to_owned(), chain_name);
+    format!("{of}, {}", if curve.taught { "taught" } else { "new" })
 }
 
 fn outline(state: &StateGaussian, axis: usize) -> Vec<[f64; 2]> {

@@ -1,15 +1,22 @@
 //! Paths past the obstacle, method by method: the paper's figure of its first simulated experiment.
 
+use std::cmp::Reverse;
+
 use super::chart::{Axis, Chart, Figure};
 use super::mark::{Mark, Symbol};
 use crate::math::ellipse_outline;
 use crate::palette::{BLACK, GREY, Rgb, VERMILION};
-use crate::planar::{Case, Guidance, Method, Movement, Obstacle, PlanarOutcome, obstacles};
+use crate::planar::{Case, Guidance, Method, Movement, Obstacle, PlanarOutcome, obstacles, rank};
 
 /// Width and height of a panel (pt).
 const PANEL_PT: [f64; 2] = [300.0, 320.0];
 /// Panels side by side, at most.
 const MOST_COLUMNS: usize = 3;
+
+/// Widths of the path past the narrowest obstacle, and how much wider that past the next wider one is (pt): of taught situations and of new ones.
+/// Paths that lie on each other are all seen.
+const TAUGHT_PT: [f64; 2] = [0.9, 0.9];
+const NEW_PT: [f64; 2] = [2.0, 1.2];
 
 /// One panel per method: demonstrations, obstacle, paths to taught situations (thin) and to new ones (thick), collisions marked. Of several
 /// obstacles each has a colour, and so has what passes it.
@@ -32,19 +39,15 @@ fn panel(method: Method, outcome: &PlanarOutcome, cases: &[&Case]) -> Chart {
         }
     }
     let obstacles = obstacles(cases.iter().copied());
-    // The widest first, or it would cover the others.
-    chart.marks.extend(obstacles.iter().rev().map(|obstacle| {
-        let outline = ellipse_outline(obstacle.ellipse.centre_m, obstacle.ellipse.half_axes_m);
-        match obstacle.color() {
-            Some(color) => Mark::area("", color, 0.12, outline),
-            None => Mark::area("obstacle", GREY, 0.35, outline),
-        }
-    }));
+    chart.marks.extend(shapes(&obstacles));
     chart.marks.extend(outcome.demonstrations.iter().map(|shown| Mark::line("demonstrated", GREY, 0.6, shown.path_m.clone())));
     let movements = || cases.iter().flat_map(|case| case.of(method).map(move |movement| (*case, movement)));
     // The legend names the obstacles in their order, whichever is passed first.
-    chart.marks.extend(obstacles.iter().filter_map(|one| Some(drawn(&one.name(), one.color()?, one.taught, Vec::new()))));
-    chart.marks.extend(movements().map(|(case, movement)| path(case, movement, &obstacles)));
+    let entry = |one: &Obstacle| Some(drawn(&one.name(), one.color()?, (one.taught, rank(&obstacles, &one.ellipse)), Vec::new()));
+    chart.marks.extend(obstacles.iter().filter_map(entry));
+    let mut paths: Vec<(&Case, &Movement)> = movements().collect();
+    paths.sort_by_key(|(case, _)| (case.taught, Reverse(rank(&obstacles, &case.obstacle))));
+    chart.marks.extend(paths.into_iter().map(|(case, movement)| path(case, movement, &obstacles)));
     chart.marks.extend(goals(cases));
     let hits: Vec<[f64; 2]> =
         movements().filter(|(_, movement)| movement.collides).filter_map(|(case, movement)| deepest(case, movement)).collect();
@@ -52,6 +55,19 @@ fn panel(method: Method, outcome: &PlanarOutcome, cases: &[&Case]) -> Chart {
         chart.marks.push(Mark::symbols("collision", VERMILION, Symbol::Cross, 4.5, hits));
     }
     chart
+}
+
+/// The obstacles, the widest first, or it would cover the others; of several the legend tells the look alone, as their paths have their names.
+fn shapes(obstacles: &[Obstacle]) -> Vec<Mark> {
+    let shape = |obstacle: &Obstacle| {
+        let outline = ellipse_outline(obstacle.ellipse.centre_m, obstacle.ellipse.half_axes_m);
+        match obstacle.color() {
+            Some(color) => Mark::area("", color, 0.12, outline),
+            None => Mark::area("obstacle", GREY, 0.35, outline),
+        }
+    };
+    let several = (obstacles.len() > 1).then(|| Mark::area("obstacle, in the colour of its paths", GREY, 0.12, Vec::new()));
+    obstacles.iter().rev().map(shape).chain(several).collect()
 }
 
 /// Taught and new goals, or the one that all situations share.
@@ -72,12 +88,14 @@ fn path(case: &Case, movement: &Movement, obstacles: &[Obstacle]) -> Mark {
         let kind = if case.taught { "taught" } else { "new" };
         (format!("{}, {kind}", movement.method.title()), movement.method.color())
     });
-    drawn(&legend, color, case.taught, movement.path_m.clone())
+    drawn(&legend, color, (case.taught, rank(obstacles, &case.obstacle)), movement.path_m.clone())
 }
 
-/// The line of a taught situation, or of a new one.
-fn drawn(legend: &str, color: Rgb, taught: bool, points: Vec<[f64; 2]>) -> Mark {
-    if taught { Mark::dashes(legend, color, 0.9, points) } else { Mark::line(legend, color, 2.0, points) }
+/// The line of a taught situation, or of a new one, past the obstacle of a rank.
+fn drawn(legend: &str, color: Rgb, (taught, rank): (bool, usize), points: Vec<[f64; 2]>) -> Mark {
+    let [narrowest, wider] = if taught { TAUGHT_PT } else { NEW_PT };
+    let width_pt = narrowest + wider * rank as f64;
+    if taught { Mark::dashes(legend, color, width_pt, points) } else { Mark::line(legend, color, width_pt, points) }
 }
 
 /// The point of a path that is deepest inside the obstacle.

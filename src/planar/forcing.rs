@@ -2,9 +2,11 @@
 
 use nalgebra::Matrix3;
 
-use super::{Guidance, Method};
+use super::{Guidance, Method, chain_color};
 use crate::demonstration::{Dataset, Parameters};
 use crate::learning::{LearningError, LearningSettings, Skill, motion_sequences};
+use crate::palette::Rgb;
+use crate::palette::meaning::{STIFF, TAUGHT};
 
 /// The parameter that tells the obstacle's half width (m).
 pub(super) const HALF_WIDTH: &str = "half_width_m";
@@ -46,6 +48,19 @@ impl ForcingCurve {
     #[must_use]
     pub fn half_width_m(&self) -> Option<f64> {
         self.theta.iter().find(|(name, _)| name == HALF_WIDTH).map(|(_, value)| *value)
+    }
+
+    /// Its colour, wherever it is drawn: that of its chain, or else of its method.
+    #[must_use]
+    pub fn color(&self) -> Rgb {
+        self.chain.map(chain_color).or(self.method.map(Method::color)).unwrap_or(TAUGHT)
+    }
+
+    /// The colour of its states: that of states that do nothing about forces, of which a plane has none; those of a chain are told from others by
+    /// its colour.
+    #[must_use]
+    pub fn color_of_states(&self) -> Rgb {
+        self.chain.map_or(STIFF, chain_color)
     }
 }
 

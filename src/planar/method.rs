@@ -45,22 +45,28 @@ impl Method {
         match self {
             Self::Cpdmp => "CPDMP",
             Self::CpdmpProduct => "CPDMP, side x width",
-            Self::CpdmpChain => "CPDMP, one chain",
+            Self::CpdmpChain => "CPDMP by chain",
             Self::LwrDmp => "LWR-DMP",
             Self::TpGmm => "TP-GMM",
         }
     }
 
-    /// Its colour, wherever it is drawn.
+    /// Its colour, wherever it is drawn and nothing else has one, with the colour's name.
+    #[must_use]
+    pub fn look(self) -> (Rgb, &'static str) {
+        match self {
+            Self::Cpdmp => (BLUE, "blue"),
+            Self::CpdmpProduct => (PURPLE, "purple"),
+            Self::CpdmpChain => (GREEN, "green"),
+            Self::LwrDmp => (ORANGE, "orange"),
+            Self::TpGmm => (BLACK, "black"),
+        }
+    }
+
+    /// Its colour alone.
     #[must_use]
     pub fn color(self) -> Rgb {
-        match self {
-            Self::Cpdmp => BLUE,
-            Self::CpdmpProduct => PURPLE,
-            Self::CpdmpChain => GREEN,
-            Self::LwrDmp => ORANGE,
-            Self::TpGmm => BLACK,
-        }
+        self.look().0
     }
 
     /// Whether it is one of the paper's, not a rival.

@@ -38,6 +38,14 @@ pub fn named(half_width_m: f64, taught: bool) -> String {
     format!("half width {half_width_m} m, {}", if taught { "taught" } else { "new" })
 }
 
+/// How many of the obstacles that are taught as this one is, or new as it is, are narrower.
+#[must_use]
+pub fn rank(obstacles: &[Obstacle], ellipse: &Ellipse) -> usize {
+    let taught = obstacles.iter().find(|one| one.ellipse == *ellipse).map(|one| one.taught);
+    let narrower = |one: &&Obstacle| Some(one.taught) == taught && one.ellipse.half_axes_m[0] < ellipse.half_axes_m[0];
+    obstacles.iter().filter(narrower).count()
+}
+
 /// The obstacles of some situations, each once, from the narrowest to the widest.
 #[must_use]
 pub fn obstacles<'a>(cases: impl IntoIterator<Item = &'a Case>) -> Vec<Obstacle> {

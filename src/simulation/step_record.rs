@@ -5,6 +5,9 @@ use nalgebra::{Isometry3, Vector3, Vector6};
 use super::AppliedForce;
 use crate::world::TouchPoint;
 
+/// A coupling that is switched on by less than this is off (-).
+const OFF: f64 = 1e-3;
+
 /// One logged step. World frame, SI.
 #[derive(Clone, Debug)]
 pub struct StepRecord {
@@ -58,6 +61,20 @@ pub struct StepRecord {
     pub touches: Vec<TouchPoint>,
     /// Kinetic energy of the robot and the objects (J).
     pub kinetic_energy_j: f64,
+}
+
+impl StepRecord {
+    /// Whether the skill is over and its coupling switched off.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.time_fraction >= 1.0 && self.activation < OFF
+    }
+
+    /// The beta with which the arm answers forces: when the skill is over, it holds its place whatever the last state did.
+    #[must_use]
+    pub fn acting_beta(&self) -> f64 {
+        if self.is_over() { 0.0 } else { self.beta }
+    }
 }
 
 /// How long the skill took (s), by the last record before its end; `None` when no record lies inside.

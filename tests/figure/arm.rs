@@ -104,6 +104,7 @@ fn only_what_happened_is_drawn() {
         step.beta = -step.beta;
     }
     let figure = arm_compliance(&parts.run());
+    assert!(!figure.panels.iter().any(|panel| panel.title.contains("never on")));
     assert!(figure.panels.iter().all(|panel| marks(panel, "of the person").is_empty() && !panel.title.contains("move the tool")));
     let steps = &parts.outcome.steps;
     let window = [steps[COMPLIES.start].time_s, steps[COMPLIES.end - 1].time_s];
@@ -112,6 +113,8 @@ fn only_what_happened_is_drawn() {
         assert!(matches!(bands[..], [Shape::Band { stretch, .. }] if *stretch == window), "{bands:?}");
         assert!(marks(panel, "the arm complies").is_empty());
     }
+    parts.outcome.steps.iter_mut().for_each(|step| step.activation = 0.0);
+    assert!(arm_compliance(&parts.run()).panels.iter().any(|panel| panel.title.contains("the coupling is never on")));
 }
 
 /// Contract: the number of a state stands above its bar, and on no other number and not on the threshold.
@@ -239,6 +242,8 @@ fn the_legend_of_taught_settings_is_whole() {
         for legend in ["taught, in the colour of its setting", "state, two standard deviations"] {
             assert_eq!(marks(panel, legend).len(), 1, "{legend}");
         }
+        let executed = line(panel, "block_height_m = 0.235, executed");
+        assert!(executed.len() > 2, "the setting of the execution is named");
         let of_settings = panel.marks.iter().filter(|mark| mark.legend.contains("block_height_m"));
         assert!(of_settings.clone().count() > 1 && of_settings.clone().all(|mark| !taken.contains(&mark.color)));
     }
@@ -262,6 +267,30 @@ fn beta_has_the_colour_of_what_it_does() {
     assert!(mark.color == MINIMISES);
     let drawn = line(&figure.panels[1], "beta, minimises the force");
     assert!(drawn[..COMPLIES.len()].iter().all(|point| point[1] > 0.0) && drawn.len() == COMPLIES.len() + 1);
+}
+
+/// Contract: when the skill is over the arm holds its place: `beta` is drawn as none whatever the last state did, and the stretch is marked; where the
+/// records end with the skill there is none.
+#[test]
+fn a_skill_that_is_over_does_nothing_about_forces() {
+    let mut parts = Parts::of(outcome());
+    let end = parts.outcome.steps.iter().position(|step| step.time_fraction >= 1.0).expect("the records go on");
+    for (index, step) in parts.outcome.steps.iter_mut().enumerate() {
+        (step.beta, step.activation) = (1.0, if index < end { 0.9 } else { 0.0 });
+    }
+    let figure = arm_compliance(&parts.run());
+    let times: Vec<f64> = parts.outcome.steps[end..].iter().map(|step| step.time_s).collect();
+    assert!(times.iter().all(|time_s| line(&figure.panels[1], "beta").contains(&[*time_s, 0.0])), "{times:?}");
+    let over = [times[0], times[times.len() - 1]];
+    let bands = |figure: &Figure| -> Vec<[f64; 2]> {
+        let all = figure.panels.iter().flat_map(|panel| marks(panel, "the skill is over"));
+        all.map(|mark| if let Shape::Band { stretch, .. } = mark.shape { stretch } else { panic!("no band") }).collect()
+    };
+    for figure in [&figure, &arm_motion(&parts.run()), &arm_forces(&parts.run())] {
+        assert_eq!(bands(figure), vec![over; figure.panels.len()], "{}", figure.title);
+    }
+    parts.outcome.steps.truncate(end + 1);
+    assert!(bands(&arm_compliance(&parts.run())).is_empty());
 }
 
 /// Contract: a door's arc lies at the handle's distance about its hinge, and is drawn from above in true place.

@@ -56,3 +56,47 @@ fn every_width_has_panels_of_its_own_with_its_forcing_terms_alone() {
         assert_eq!(drawn, expected, "{}", panel.title);
     }
 }
+
+/// Contract: the legend tells what the ellipses in the plane are, also where several obstacles have a colour each.
+#[test]
+fn the_obstacle_is_in_the_legend() {
+    for panel in planar_paths("", &OUTCOME, Guidance::WithSide).panels {
+        assert_eq!(panel.marks.iter().filter(|mark| mark.legend.contains("obstacle")).count(), 1, "{}", panel.title);
+    }
+}
+
+/// Contract: of paths of one kind that lie on each other every one is seen: what lies on top is thinner.
+#[test]
+fn paths_that_lie_on_each_other_are_all_seen() {
+    for panel in planar_paths("", &OUTCOME, Guidance::WithoutSide).panels {
+        for kind in [", taught", ", new"] {
+            let widths = panel.marks.iter().filter_map(|mark| match &mark.shape {
+                Shape::Line { width_pt, points, .. } if mark.legend.ends_with(kind) && !points.is_empty() => Some((mark.color, *width_pt)),
+                _ => None,
+            });
+            let widths: Vec<_> = widths.collect();
+            assert!(widths.windows(2).all(|pair| pair[1].1 < pair[0].1 || pair[1] == pair[0]), "{}: {widths:?}", panel.title);
+            assert!(widths.first().map(|one| one.0) != widths.last().map(|one| one.0), "several colours");
+        }
+    }
+}
+
+/// Contract: the model's line is told from its states: it is far wider than their borders, and where a method has one colour they have another;
+/// the legend names both.
+#[test]
+fn the_model_is_told_from_its_states() {
+    for (guidance, method) in [(Guidance::WithSide, Method::Cpdmp), (Guidance::WithoutSide, Method::CpdmpChain)] {
+        for panel in planar_forcing("", &OUTCOME, guidance, method).panels {
+            let of = |states: bool| panel.marks.iter().filter(move |mark| matches!(mark.shape, Shape::Area { .. }) == states);
+            let lines: Vec<&Mark> = of(false).filter(|mark| mark.legend != "demonstrated").collect();
+            assert!(!lines.is_empty() && of(true).count() > 0);
+            for mark in &lines {
+                assert!(matches!(mark.shape, Shape::Line { width_pt, .. } if width_pt > 1.5), "{}", mark.legend);
+                assert!(method == Method::CpdmpChain || (mark.color == method.color() && of(true).all(|state| state.color != mark.color)));
+            }
+            for state in of(true) {
+                assert!(matches!(state.shape, Shape::Area { border_pt, .. } if border_pt < 0.5) && state.legend.starts_with("states of "));
+            }
+        }
+    }
+}

@@ -7,7 +7,9 @@ use std::io::BufReader;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use cpdmp::planar::{Guidance, Method, PlanarOutcome, TwoSidedObstacleSettings, two_sided_obstacle};
+use cpdmp::planar::{
+    Guidance, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
+};
 use cpdmp::recording::planar_entity::{self, ENTITIES, PHASE_INPUT};
 use cpdmp::recording::write_planar_recording;
 use nalgebra::{Matrix2, Vector2};
@@ -24,17 +26,29 @@ static RECORDED: LazyLock<(PlanarOutcome, Vec<Chunk>)> = LazyLock::new(|| {
     (settings.learning.motion.states, settings.learning.motion.max_iterations) = (4, 20);
     settings.tpgmm.components = 4;
     let outcome = two_sided_obstacle(&settings, 0, &|| true).expect("it can be learned");
+    let chunks = recorded(&outcome);
+    (outcome, chunks)
+});
+
+/// The data of the recording of an outcome, without the layout.
+fn recorded(outcome: &PlanarOutcome) -> Vec<Chunk> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("recording.rrd");
-    write_planar_recording(&path, "two_sided_obstacle", 0, &outcome).expect("written");
+    write_planar_recording(&path, ("made_up", 0), outcome, "made_up, seed 0: passed").expect("written");
     let file = BufReader::new(File::open(&path).expect("there"));
     let data = DecoderApp::decode_lazy(file).filter_map(|message| match message.expect("it can be decoded") {
         LogMsg::ArrowMsg(id, message) if id.is_recording() => Some(Chunk::from_arrow_msg(&message).expect("a chunk")),
         _ => None,
     });
-    let chunks = data.collect();
-    (outcome, chunks)
-});
+    data.collect()
+}
+
+/// What the page in a recording says.
+fn guide(chunks: &[Chunk]) -> String {
+    let text = rerun::TextDocument::descriptor_text().component;
+    let of_guide = chunks.iter().filter(|chunk| *chunk.entity_path() == planar_entity::GUIDE.path());
+    of_guide.flat_map(|chunk| chunk.iter_slices::<String>(text).flatten().map(|words| words.to_string()).collect::<Vec<_>>()).collect()
+}
 
 /// The rows of scalars of an entity: time on the timeline, values.
 fn scalars(entity: &EntityPath) -> Vec<(i64, Vec<f64>)> {
@@ -113,6 +127,27 @@ fn some_metres_are_written_where_they_are() {
     assert!((2..=5).contains(&along(0)) && (2..=5).contains(&along(1)) && words.len() == along(0) + along(1), "{words:?} at {places:?}");
 }
 
+/// Contract: the page says how to read what is in the recording, and nothing of what is not.
+#[test]
+fn the_page_says_what_is_shown() {
+    let two_sided = guide(&RECORDED.1);
+    assert!(two_sided.starts_with("**made_up, seed 0: passed**; "), "{two_sided}");
+    for (said, there) in
+        [("each chain has a colour", true), ("wider obstacles", true), ("Each width", true), ("yellow ones", false), ("(4)", false)]
+    {
+        assert_eq!(two_sided.contains(said), there, "{said}: {two_sided}");
+    }
+    let mut settings = ObstacleAvoidanceSettings::default();
+    (settings.learning.motion.states, settings.learning.motion.max_iterations) = (4, 20);
+    let outcome = obstacle_avoidance(&settings, 0, &|| true).expect("it can be learned");
+    let one_sided = guide(&recorded(&outcome));
+    let absent = ["chain", "Each width", "wider obstacles", "transitions", "(4)"].map(|said| (said, false));
+    let shown = ["blue: CPDMP; orange: LWR-DMP", "yellow ones", "Thick lines", "Thin ellipses"].map(|said| (said, true));
+    for (said, there) in absent.into_iter().chain(shown) {
+        assert_eq!(one_sided.contains(said), there, "{said}: {one_sided}");
+    }
+}
+
 #[test]
 fn entities_and_the_timeline_are_those_that_are_documented() {
     let chunks = &RECORDED.1;
@@ -123,6 +158,6 @@ fn entities_and_the_timeline_are_those_that_are_documented() {
 
 #[test]
 fn a_recording_that_cannot_be_written_names_the_file() {
-    let error = write_planar_recording(Path::new("/nowhere/recording.rrd"), "a", 0, &RECORDED.0).expect_err("no such folder");
+    let error = write_planar_recording(Path::new("/nowhere/recording.rrd"), ("a", 0), &RECORDED.0, "").expect_err("no such folder");
     assert!(error.to_string().contains("/nowhere/recording.rrd"), "{error}");
 }

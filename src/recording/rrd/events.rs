@@ -3,7 +3,7 @@
 use rerun::TextDocument;
 
 use super::entity_path::{EVENTS, EVENTS_SO_FAR};
-use super::lanes::{CLOSED, acting_beta, beta_in_words, holds};
+use super::lanes::{CLOSED, beta_in_words, holds};
 use super::recorder::{Fault, Recorder};
 use crate::simulation::{RunOutcome, StepRecord};
 use crate::world::{NEAR_M, nearest_of_each};
@@ -109,8 +109,8 @@ fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
     if before.time_fraction < 1.0 && now.time_fraction >= 1.0 {
         texts.push("the skill ends".into());
     }
-    if acting_beta(before) != acting_beta(now) {
-        texts.push(match beta_in_words(acting_beta(now)) {
+    if before.acting_beta() != now.acting_beta() {
+        texts.push(match beta_in_words(now.acting_beta()) {
             "complies" => format!("the arm complies from here (state {})", now.state),
             "stiff" => format!("the arm is stiff from here (state {})", now.state),
             other => format!("the arm {other} from here (state {})", now.state),

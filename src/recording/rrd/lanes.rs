@@ -15,19 +15,6 @@ pub(super) fn holds(record: &StepRecord) -> bool {
 /// An opening below this counts as closed, commanded or measured (0 … 1).
 pub(super) const CLOSED: f64 = 0.5;
 
-/// A coupling that is switched on by less than this is off (-).
-const OFF: f64 = 1e-3;
-
-/// Whether the skill is over and its coupling switched off.
-pub(super) fn is_over(record: &StepRecord) -> bool {
-    record.time_fraction >= 1.0 && record.activation < OFF
-}
-
-/// The beta with which the arm answers forces: when the skill is over, it holds its place whatever the last state did.
-pub(super) fn acting_beta(record: &StepRecord) -> f64 {
-    if is_over(record) { 0.0 } else { record.beta }
-}
-
 /// What a beta means, in a word.
 pub(super) fn beta_in_words(beta: f64) -> &'static str {
     match beta {
@@ -67,11 +54,11 @@ pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], betas: &[f6
     let of_two = |(on, color): (&str, Color), off: &str| vec![(on.to_owned(), color), (off.to_owned(), palette::IDLE)];
     let pick = |yes: bool, on: &str, off: &str| if yes { on.to_owned() } else { off.to_owned() };
     let meanings = [0.0, -1.0, 1.0].map(|beta| (beta_in_words(beta).to_owned(), beta_color(beta)));
-    lane(&COMPLIANCE_LANE, meanings.to_vec(), &|r| beta_in_words(acting_beta(r)).to_owned())?;
+    lane(&COMPLIANCE_LANE, meanings.to_vec(), &|r| beta_in_words(r.acting_beta()).to_owned())?;
     if !betas.is_empty() {
         let states = betas.iter().enumerate().map(|(state, beta)| (state.to_string(), shade(beta_color(*beta), state)));
         let legend = states.chain([(OVER.to_owned(), palette::IDLE)]).collect();
-        lane(&STATE_LANE, legend, &|r| if is_over(r) { OVER.to_owned() } else { r.state.to_string() })?;
+        lane(&STATE_LANE, legend, &|r| if r.is_over() { OVER.to_owned() } else { r.state.to_string() })?;
     }
     lane(&PERSON_LANE, of_two(("holds", palette::PERSON), "hands off"), &|r| pick(holds(r), "holds", "hands off"))?;
     let closed = |r: &StepRecord| r.gripper_command < CLOSED;

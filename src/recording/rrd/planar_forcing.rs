@@ -7,13 +7,17 @@ use super::palette;
 use super::planar_entity::{CURVE, DEMONSTRATED, GAUSSIANS};
 use super::planar_recorder::PlanarRecorder;
 use super::recorder::Fault;
-use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian, chain_color};
+use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian};
 
 /// The axes of the plane, as they name entities.
 pub(super) const AXES: [&str; 2] = ["x", "y"];
 
 /// Ellipses lie at this many standard deviations.
 const DEVIATIONS: f64 = 2.0;
+
+/// Widths of lines on the screen (pt): of the model, and of what is behind it, its states and what was demonstrated.
+const MODEL_PT: f32 = 2.4;
+const BEHIND_PT: f32 = 0.8;
 
 /// Points of each half of an ellipse.
 const POINTS: usize = 25;
@@ -29,30 +33,26 @@ pub(super) fn log_forcing(recorder: &PlanarRecorder, outcome: &PlanarOutcome) ->
     let demonstrated = outcome.forcing.iter().filter(|curve| curve.method.is_none());
     for (curve, shown) in demonstrated.zip(&outcome.demonstrations) {
         for (axis, name) in AXES.iter().enumerate() {
-            line(recorder, DEMONSTRATED.of(&[name, &shown.name]), curve, axis, ("demonstrated", palette::TAUGHT, 0.8))?;
+            line(recorder, DEMONSTRATED.of(&[name, &shown.name]), curve, axis, ("demonstrated", palette::TAUGHT, BEHIND_PT))?;
         }
     }
     for curve in &outcome.forcing {
         let Some(method) = curve.method.filter(|method| method.is_cpdmp()) else { continue };
         let situation = situation(curve);
-        let color = color(curve, method);
         for (axis, name) in AXES.iter().enumerate() {
             let names = [curve.guidance.key(), method.key(), name, &situation];
             let kind = if curve.taught { "taught" } else { "unseen" };
-            log_ellipses(recorder, GAUSSIANS.of(&names), &curve.states, axis, color)?;
-            line(recorder, CURVE.of(&names), curve, axis, (kind, color, if curve.taught { 1.2 } else { 2.2 }))?;
+            log_ellipses(recorder, GAUSSIANS.of(&names), &curve.states, axis, palette::rgb(curve.color_of_states()))?;
+            line(recorder, CURVE.of(&names), curve, axis, (kind, color(curve), MODEL_PT))?;
         }
     }
     Ok(())
 }
 
-/// Chains have a colour each; else what was taught has that of the method.
-fn color(curve: &ForcingCurve, method: Method) -> Color {
-    match curve.chain {
-        Some(chain) => palette::rgb(chain_color(chain)),
-        None if curve.taught => palette::light(palette::rgb(method.color())),
-        None => palette::rgb(crate::palette::MAGENTA),
-    }
+/// The colour of a curve, lighter where it is a method's: those are made for white, and plots are black.
+fn color(curve: &ForcingCurve) -> Color {
+    let color = palette::rgb(curve.color());
+    if curve.chain.is_some() { color } else { palette::light(color) }
 }
 
 /// A name for a curve among those of its method: `half_width_m = 1.5, chain 2`.
@@ -86,7 +86,7 @@ fn log_ellipses(recorder: &PlanarRecorder, entity: EntityPath, states: &[StateGa
     let rows = inputs.iter().flat_map(|input| states.iter().flat_map(move |state| halves(state, axis, *input)));
     let series = 2 * states.len();
     let columns = Scalars::new(rows).columns(std::iter::repeat_n(series, inputs.len()))?;
-    recorder.always(entity.clone(), &style("states", color, 0.8, series))?;
+    recorder.always(entity.clone(), &style("states", color, BEHIND_PT, series))?;
     recorder.over_phase(entity, &inputs, columns)
 }
 

@@ -10,13 +10,14 @@ use rerun::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
 use rerun::external::re_sdk_types::blueprint::archetypes::{Background, PlotLegend, TimeAxis, VisualBounds2D};
 
 use super::blueprint_property::Properties;
-use super::planar_entity::{CURVE, DEMONSTRATED, GAUSSIANS, PHASE_INPUT};
-use super::planar_forcing::{AXES, recorded, situation};
-use super::planar_map::{bounds, with_numbers};
+use super::planar_entity::PHASE_INPUT;
+use super::planar_forcing::recorded;
+use super::planar_grid::{bounds, with_numbers};
+use super::planar_pages::{Page, pages_of};
 use super::planar_recorder::ticks;
 use super::recorder::Fault;
 use super::{palette, planar_graph};
-use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, named};
+use crate::planar::{Guidance, Method, PlanarOutcome};
 
 /// The layout with the properties of its views.
 pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties), Fault> {
@@ -32,9 +33,10 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
     let mut forcing: Vec<ContainerLike> = Vec::new();
     for (guidance, method) in recorded(outcome) {
         let mut pages: Vec<ContainerLike> = Vec::new();
-        for (name, entities) in pages_of(outcome, guidance, method) {
+        for Page { name, look, entities } in pages_of(outcome, guidance, method) {
             let [x, y] = entities;
-            pages.push(Vertical::new([views.forcing("x", x)?.into(), views.forcing("y", y)?.into()]).with_name(name).into());
+            let plots = [views.forcing("x", &look, x)?.into(), views.forcing("y", &look, y)?.into()];
+            pages.push(Vertical::new(plots).with_name(name).into());
         }
         let name = format!("{}{}", method.title(), told(guidance));
         forcing.push(if pages.len() == 1 { pages.remove(0) } else { Tabs::new(pages).with_name(name).into() });
@@ -47,7 +49,7 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
         shares.push(0.75);
     }
     // A new reader reads first: what says how to is never behind something else.
-    right.push(TextDocumentView::new("How to read").with_origin("/guide").into());
+    right.push(TextDocumentView::new("Result, and how to read").with_origin("/guide").into());
     shares.push(1.1);
     let left = Grid::new(maps).with_grid_columns(columns as u32);
     let right = Vertical::new(right).with_row_shares(shares);
@@ -83,9 +85,9 @@ impl Views {
         Ok(view)
     }
 
-    /// A legend of dozens of curves would cover them: the guide names the colours.
-    fn forcing(&mut self, axis: &str, entities: Vec<String>) -> Result<View, Fault> {
-        let name = format!("Forcing along {axis} (m) over the phase: 0 s is the start, 1 s the end");
+    /// A legend of dozens of curves would cover them: the title names what is drawn.
+    fn forcing(&mut self, axis: &str, look: &str, entities: Vec<String>) -> Result<View, Fault> {
+        let name = format!("Forcing along {axis} (m), 0 s start … 1 s end; {look}");
         let view = view(TimeSeriesView::new(name).with_origin("/forcing").with_contents(entities))?;
         self.properties.set(&view, "PlotLegend", PlotLegend::new().with_visible(false));
         // Left to itself the viewer shows a piece around the cursor.
@@ -94,43 +96,6 @@ impl Views {
         self.properties.set(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::Independent).with_view_range(whole));
         Ok(view)
     }
-}
-
-/// Pages of what was demonstrated, and of what was not.
-const TAUGHT: &str = "Demonstrated situations";
-const NEW: &str = "New situations";
-
-/// What the plots of a method show along x and y, page by page: where obstacles differ in width, each width has a page; else what was
-/// demonstrated has one, and what was not.
-fn pages_of(outcome: &PlanarOutcome, guidance: Guidance, method: Method) -> Vec<(String, [Vec<String>; 2])> {
-    let own: Vec<&ForcingCurve> = outcome.forcing_with(guidance).filter(|curve| curve.method == Some(method)).collect();
-    let mut widths: Vec<(f64, bool)> = own.iter().filter_map(|curve| Some((curve.half_width_m()?, curve.taught))).collect();
-    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    widths.dedup();
-    let drawn = |axis: &str, curve: &ForcingCurve| {
-        let names = [guidance.key(), method.key(), axis, &situation(curve)].map(str::to_owned);
-        [&CURVE, &GAUSSIANS].map(|entity| entity.of(&names.each_ref().map(String::as_str)).to_string())
-    };
-    if widths.len() < 2 {
-        let page = |(name, taught): (&str, bool)| {
-            let entities = AXES.map(|axis| {
-                let shown = outcome.demonstrations.iter().filter(|_| taught).map(|shown| DEMONSTRATED.of(&[axis, &shown.name]).to_string());
-                shown.chain(own.iter().filter(|curve| curve.taught == taught).flat_map(|curve| drawn(axis, curve))).collect()
-            });
-            (name.to_owned(), entities)
-        };
-        return [(TAUGHT, true), (NEW, false)].map(page).to_vec();
-    }
-    let page = |(width, taught): &(f64, bool)| {
-        let entities = AXES.map(|axis| {
-            let of_width = own.iter().filter(|curve| curve.half_width_m() == Some(*width));
-            let shown = outcome.demonstrations.iter().filter(|shown| shown.obstacle.half_axes_m[0] == *width);
-            let shown = shown.map(|shown| DEMONSTRATED.of(&[axis, &shown.name]).to_string());
-            shown.chain(of_width.flat_map(|curve| drawn(axis, curve))).collect()
-        });
-        (named(*width, *taught), entities)
-    };
-    widths.iter().map(page).collect()
 }
 
 /// The least and the greatest phase input, with a little space around, on the timeline.
@@ -145,7 +110,7 @@ fn told(guidance: Guidance) -> &'static str {
     match guidance {
         Guidance::OneSide => "",
         Guidance::WithSide => ", side told",
-        Guidance::WithoutSide => ", not told",
+        Guidance::WithoutSide => ", side not told",
     }
 }
 

@@ -14,17 +14,18 @@ use crate::recording::RecordingError;
 /// The application that the viewer keeps the layout for: another one than for runs of an arm, whose layout is another.
 const APPLICATION: &str = "cpdmp-planar";
 
-/// Writes the recording of the planar experiment `name` to `path` (`.rrd`): its data, and the layout that it opens with.
+/// Writes the recording of the planar experiment `name` to `path` (`.rrd`): its data, its result in words, and the layout that it
+/// opens with.
 ///
 /// # Errors
 /// When the file cannot be created or written to its end.
-pub fn write_planar_recording(path: &Path, name: &str, seed: u64, outcome: &PlanarOutcome) -> Result<(), RecordingError> {
-    let recorded = record(name, seed, outcome).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
+pub fn write_planar_recording(path: &Path, (name, seed): (&str, u64), outcome: &PlanarOutcome, result: &str) -> Result<(), RecordingError> {
+    let recorded = record((name, seed), outcome, result).map_err(|source| RecordingError::Rerun { path: path.to_owned(), source })?;
     save(path, &recorded)
 }
 
 /// The content of the file.
-fn record(name: &str, seed: u64, outcome: &PlanarOutcome) -> Result<Vec<u8>, Fault> {
+fn record((name, seed): (&str, u64), outcome: &PlanarOutcome, result: &str) -> Result<Vec<u8>, Fault> {
     let (stream, storage) = RecordingStreamBuilder::new(APPLICATION).memory()?;
     if !stream.is_enabled() {
         return Err("rerun is switched off by the environment variable RERUN; unset it, or do without a recording".into());
@@ -38,7 +39,7 @@ fn record(name: &str, seed: u64, outcome: &PlanarOutcome) -> Result<Vec<u8>, Fau
     if let Some(transitions) = &outcome.transitions {
         planar_graph::log_graph(&recorder, transitions)?;
     }
-    planar_guide::log_guide(&recorder, name, seed, outcome)?;
+    planar_guide::log_guide(&recorder, outcome, result)?;
     stream.flush_blocking()?;
     Ok(storage.drain_as_bytes()?)
 }

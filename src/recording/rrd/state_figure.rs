@@ -6,7 +6,7 @@ use rerun::{Ellipsoids3D, Points3D, Radius};
 use super::camera::Camera;
 use super::convert;
 use super::entity_path::{ACTIVE_LABEL, ACTIVE_STATE, STATE_OUTLINES, STATES};
-use super::lanes::{beta_color, beta_in_words, is_over};
+use super::lanes::{beta_color, beta_in_words};
 use super::outline_figure::{Outline, around, log_outlines};
 use super::palette;
 use super::paths::AXES;
@@ -50,7 +50,7 @@ pub(super) fn log_active(
     if states.is_empty() {
         return Ok(());
     }
-    let now = |i: usize| (records[i].state, is_over(&records[i]));
+    let now = |i: usize| (records[i].state, records[i].is_over());
     let known = |i: &usize| records[*i].state < states.len() && (*i == 0 || now(*i) != now(i - 1));
     let changes: Vec<usize> = (recorder.first()..records.len()).filter(known).collect();
     let times: Vec<f64> = changes.iter().map(|i| records[*i].time_s).collect();
