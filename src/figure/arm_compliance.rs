@@ -1,22 +1,22 @@
 //! Where the arm complies, why, and what comes of it: spread of the demonstrations, beta, forces and displacement over one time.
 
+use std::cmp::Ordering;
+
 use nalgebra::Vector3;
 
 use super::arm_run::{ArmRun, kind_of, over_time};
-use super::canvas::{TEXT_PT, width_pt};
 use super::chart::{Axis, Chart, Figure};
-use super::mark::{Anchor, Mark};
+use super::mark::Mark;
+use super::state_numbers::number_states;
 use crate::learning::cpdmp::{Statistic, spread_unit};
 use crate::palette::BLACK;
-use crate::palette::meaning::{COMPLIES, EXECUTED, EXPECTED, MEASURED, MINIMISES, PERSON, PLANNED};
+use crate::palette::meaning::{COMPLIES, EXECUTED, EXPECTED, MEASURED, MINIMISES, PERSON, PLANNED, STIFF};
 use crate::simulation::StepRecord;
 
 /// Width and height of a panel (pt).
 const PANEL_PT: [f64; 2] = [600.0, 170.0];
 /// About the part of it between the axes (pt).
 const PLOT_PT: [f64; 2] = [PANEL_PT[0] - 78.0, PANEL_PT[1] - 62.0];
-/// Space between the number of a state and what is drawn (pt).
-const GAP_PT: f64 = 2.5;
 
 /// The compliance profile of a run.
 #[must_use]
@@ -57,49 +57,8 @@ fn spread(run: &ArmRun) -> Chart {
         let sigma = millimetres(compliance.threshold_m2);
         chart.marks.push(Mark::dashes("root of the threshold sigma", BLACK, 1.0, vec![[0.0, sigma], [run.duration_s, sigma]]));
     }
-    number_states(run, &mut chart);
+    number_states(run, PLOT_PT, &mut chart);
     chart
-}
-
-/// Writes the number of every state above its bar, clear of other bars and numbers and of the threshold.
-fn number_states(run: &ArmRun, chart: &mut Chart) {
-    let drawn = chart.marks.iter().filter(|mark| !mark.places().is_empty());
-    let mut taken: Vec<Region> = drawn.map(|mark| region(mark.places())).collect();
-    let highest = taken.iter().map(|[_, [_, top]]| *top).fold(f64::MIN_POSITIVE, f64::max);
-    let end_s = run.steps.last().map_or(0.0, |step| step.time_s).max(run.duration_s);
-    // The axes are longer than what is drawn: by their margins, and by a number that stands on the highest bar.
-    let [s_per_pt, height_per_pt] = [1.1 * end_s / PLOT_PT[0], 1.3 * highest / PLOT_PT[1]];
-    for state in &run.states {
-        let (Some([from, to]), name) = (state.active, state.state.to_string()) else { continue };
-        let (middle, half_s) = (0.5 * (from + to) * run.duration_s, 0.5 * width_pt(&name, TEXT_PT) * s_per_pt);
-        let (across, height) = ([middle - half_s, middle + half_s], TEXT_PT * height_per_pt);
-        let foot = lowest_free(&taken, across, [height, GAP_PT * height_per_pt]);
-        taken.push([across, [foot, foot + height]]);
-        chart.marks.push(Mark::words(BLACK, [middle, foot + 0.5 * height], Anchor::Middle, &name));
-    }
-    if let Some([_, vertical]) = &mut chart.axes {
-        vertical.includes = taken.iter().map(|[_, [_, top]]| *top).collect();
-    }
-}
-
-/// Least and greatest coordinate on either axis.
-type Region = [[f64; 2]; 2];
-
-fn region(places: &[[f64; 2]]) -> Region {
-    [0, 1].map(|axis| {
-        let values = places.iter().map(|place| place[axis]);
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-    })
-}
-
-/// The lowest place from zero upwards for something of a height that lies `across` an interval, with a gap to everything that is taken.
-fn lowest_free(taken: &[Region], across: [f64; 2], [height, gap]: [f64; 2]) -> f64 {
-    let mut foot = gap;
-    let beside = |[[left, right], _]: &&Region| *left < across[1] && *right > across[0];
-    while let Some([_, [_, top]]) = taken.iter().filter(beside).find(|[_, [low, top]]| *low < foot + height && top + gap > foot) {
-        foot = top + gap;
-    }
-    foot
 }
 
 /// The standard deviation (thousandths of a unit) of a variance (its square).
@@ -113,10 +72,14 @@ fn switch(run: &ArmRun) -> Chart {
         if run.steps.iter().any(|step| step.activation > 0.0) { ", and how far the coupling is on" } else { "; the coupling is never on" };
     let mut chart = panel(run, &format!("Compliance of the active state{how_far}"), "beta, activation (-)");
     // Pieces of one colour, each up to where the next one begins.
-    let (mut from, minimises) = (0, |step: &StepRecord| step.acting_beta() > 0.0);
-    for piece in run.steps.chunk_by(|a, b| minimises(a) == minimises(b)) {
+    let (mut from, kind) = (0, |step: &StepRecord| step.acting_beta().partial_cmp(&0.0));
+    for piece in run.steps.chunk_by(|a, b| kind(a) == kind(b)) {
         let until = (from + piece.len() + 1).min(run.steps.len());
-        let (legend, color) = if minimises(&piece[0]) { ("beta, minimises the force", MINIMISES) } else { ("beta", COMPLIES) };
+        let (legend, color) = match kind(&piece[0]) {
+            Some(Ordering::Less) => ("beta, complies", COMPLIES),
+            Some(Ordering::Greater) => ("beta, minimises the force", MINIMISES),
+            _ => ("beta, stiff", STIFF),
+        };
         chart.marks.push(Mark::line(legend, color, 2.2, over_time(&run.steps[from..until], StepRecord::acting_beta)));
         from += piece.len();
     }

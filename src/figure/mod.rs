@@ -25,6 +25,7 @@ mod planar_forcing;
 mod planar_paths;
 #[cfg(feature = "png")]
 mod raster;
+mod state_numbers;
 mod stretches;
 mod svg;
 mod ticks;
