@@ -1,6 +1,6 @@
 //! Forces as arrows in a scene: how long, how thick, and where they start.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use rerun::{Arrows3D, Color};
 
 use super::camera::Camera;
@@ -19,6 +19,9 @@ pub(super) const RADIUS_M: f64 = 0.008;
 /// and each other.
 const BESIDE_M: f64 = 0.05;
 
+/// From there towards the eye (m): before the fingers, which would hide it. Where it is seen does not change.
+const BEFORE_M: f64 = 0.12;
+
 /// Forces below this are not drawn (N).
 pub(super) const SMALLEST_N: f64 = 0.25;
 
@@ -28,12 +31,14 @@ pub(super) struct Arrow {
     share: f64,
     /// To the upper right of the picture: whether a way leads to the side or upwards, what starts there is beside it.
     aside: Vector3<f64>,
+    /// Where the camera is (m, world).
+    eye: Vector3<f64>,
 }
 
 impl Arrow {
     pub(super) fn seen_by(camera: &Camera) -> Self {
         let (right, sight) = (camera.right(), (camera.target - camera.eye).normalize());
-        Self { share: camera.share, aside: (right + right.cross(&sight)).normalize() }
+        Self { share: camera.share, aside: (right + right.cross(&sight)).normalize(), eye: camera.eye }
     }
 
     /// The arrow of a force (m): as long as the force is large, up to the most that a person helps with; of larger ones no longer than can be
@@ -46,9 +51,11 @@ impl Arrow {
         force.try_normalize(0.0).unwrap_or_default() * length_m * self.share
     }
 
-    /// From the tool to the start of arrow number `number` of those that are felt there, from 1 (m).
-    pub(super) fn beside(self, number: u8) -> Vector3<f64> {
-        self.aside * (BESIDE_M * self.share * f64::from(number))
+    /// Where arrow number `number` of those that are felt at a tool starts, from 1 (m, world).
+    pub(super) fn beside(self, tool: &Point3<f64>, number: u8) -> Point3<f64> {
+        let start = tool + self.aside * (BESIDE_M * self.share * f64::from(number));
+        let sight = self.eye - start.coords;
+        start + sight.normalize() * BEFORE_M.min(sight.norm() / 2.0)
     }
 
     /// What all arrows of one kind have in common.
@@ -63,7 +70,7 @@ mod tests {
     use super::*;
 
     fn arrow(share: f64) -> (Camera, Arrow) {
-        let camera = Camera { eye: Vector3::new(1.1, 0.7, 0.3) * share, target: Vector3::new(0.1, 0.0, 0.1), share };
+        let camera = Camera { eye: Vector3::new(1.1, 0.7, 0.3) * share, target: Vector3::new(0.1, 0.0, 0.1), share, words: 1.0 };
         (camera, Arrow::seen_by(&camera))
     }
 
@@ -96,8 +103,14 @@ mod tests {
         for share in [1.0, 0.3] {
             let (camera, arrow) = arrow(share);
             let (right, sight) = (camera.right(), (camera.target - camera.eye).normalize());
+            // What is seen of where it starts, in the plane of the tool.
+            let seen = |number: u8| {
+                let from_eye = arrow.beside(&camera.target.into(), number) - Point3::from(camera.eye);
+                assert!(from_eye.norm() < (camera.target - camera.eye).norm() - 0.1, "it starts before the tool");
+                from_eye * ((camera.target - camera.eye).norm() / from_eye.dot(&sight)) - (camera.target - camera.eye)
+            };
             for along in [right, right.cross(&sight)] {
-                let aside = |number: u8| arrow.beside(number).cross(&along).norm();
+                let aside = |number: u8| seen(number).cross(&along).norm();
                 let [thick_m, way_m] = [RADIUS_M, f64::from(EXECUTED_M)].map(|radius_m| share * radius_m);
                 assert!(aside(1) > 2.0 * thick_m + way_m, "{} m", aside(1));
                 assert!(aside(2) - aside(1) > 4.0 * thick_m, "{} m", aside(2) - aside(1));
