@@ -28,10 +28,10 @@ pub type Named = (Rgb, &'static str);
 
 /// The colours of what was executed beside a run. Those of changes that are made again and again come last: others take them when nothing else
 /// is left.
-const BESIDE: [Named; 4] = [(LIME, "lime"), (MAROON, "maroon"), (BROWN, "brown"), (MAGENTA, "magenta")];
+const BESIDE: [Named; 4] = [(BROWN, "brown"), (MAROON, "maroon"), (LIME, "lime"), (MAGENTA, "magenta")];
 
 /// Changes to a run's scenario, as `KEY=VALUE`, that have a colour of their own: another method to learn, and an arm that yields to nothing.
-const OWN: [(&str, &str, Named); 2] = [("learning.shaping", "lwr", BESIDE[3]), ("coupling.enabled", "false", BESIDE[2])];
+const OWN: [(&str, &str, Named); 2] = [("learning.shaping", "lwr", BESIDE[2]), ("coupling.enabled", "false", BESIDE[3])];
 
 /// The colours of what was executed beside a run, by what each of them changes in its scenario: what is the same has the same colour in every
 /// scenario. More than there are colours share them.
@@ -70,10 +70,10 @@ mod tests {
     #[test]
     fn what_is_the_same_has_the_same_colour() {
         let (lwr, stiff) = (["learning.lwr_ends=regression", "learning.shaping = \"lwr\""], ["coupling.enabled=false"]);
-        assert_eq!(names(&[&lwr, &stiff]), ["magenta", "brown"]);
-        assert_eq!(names(&[&stiff, &["learning.theta_f=[]"], &lwr]), ["brown", "lime", "magenta"]);
-        assert_eq!(names(&[&["seed=1"], &stiff]), ["lime", "brown"]);
-        assert_eq!(names(&[&["coupling.enabled=true"]]), ["lime"]);
+        assert_eq!(names(&[&lwr, &stiff]), ["lime", "magenta"]);
+        assert_eq!(names(&[&stiff, &["learning.theta_f=[]"], &lwr]), ["magenta", "brown", "lime"]);
+        assert_eq!(names(&[&["seed=1"], &stiff]), ["brown", "magenta"]);
+        assert_eq!(names(&[&["coupling.enabled=true"]]), ["brown"]);
     }
 
     /// Contract: no two of up to four have one colour, and none has that of anything else.

@@ -27,7 +27,7 @@ pub const VIOLET: Rgb = Rgb::new(126, 98, 226);
 /// Brown.
 pub const BROWN: Rgb = Rgb::new(160, 100, 50);
 /// Lime, lighter than every green beside it.
-pub const LIME: Rgb = Rgb::new(128, 212, 80);
+pub const LIME: Rgb = Rgb::new(136, 204, 119);
 /// Maroon, darker than every other but black.
 pub const MAROON: Rgb = Rgb::new(150, 35, 65);
 /// Grey, for what stands behind the data.

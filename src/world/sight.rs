@@ -62,9 +62,8 @@ impl Shapes {
     /// The corners of the boxes around them (m, world).
     #[must_use]
     pub fn corners(&self) -> Vec<Point3<f64>> {
-        let of_shape = |(pose, shape): &(Pose, SharedShape)| {
-            shape.compute_local_aabb().vertices().map(|corner| convert::point_back(*pose * corner))
-        };
+        let of_shape =
+            |(pose, shape): &(Pose, SharedShape)| shape.compute_local_aabb().vertices().map(|corner| convert::point_back(*pose * corner));
         self.shapes.iter().flat_map(of_shape).collect()
     }
 }

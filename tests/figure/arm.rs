@@ -375,7 +375,8 @@ fn another_plan_is_drawn_and_the_same_one_is_not() {
         step.deviation.x += 0.03;
     }
     elsewhere.iter_mut().for_each(|step| step.reference.translation.vector.x += 0.03);
-    let figure = arm_paths(&parts.run().beside(vec![("pushed", LIME, &pushed[..]), ("elsewhere", MAROON, &elsewhere[..])])).expect("a path");
+    let figure =
+        arm_paths(&parts.run().beside(vec![("pushed", LIME, &pushed[..]), ("elsewhere", MAROON, &elsewhere[..])])).expect("a path");
     let above = &figure.panels[0];
     assert!(marks(above, "pushed, planned").is_empty());
     let place = |step: &StepRecord| {

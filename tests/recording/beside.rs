@@ -72,8 +72,8 @@ fn the_key_of_force_errors_leaves_out_who_expects_no_force() {
         let of_entity = chunks.iter().filter(|chunk| *chunk.entity_path() == entity.path());
         of_entity.flat_map(|chunk| chunk.iter_slices::<String>(text).map(|texts| texts[0].to_string()).collect::<Vec<_>>()).collect()
     };
-    assert_eq!(key(&entity_path::BESIDE_COLORS), "orange: executed\n\nbrown: uncoupled\n\nlime: blind");
-    assert_eq!(key(&entity_path::ERROR_COLORS), "orange: executed\n\nlime: blind");
+    assert_eq!(key(&entity_path::BESIDE_COLORS), "orange: executed\n\nmagenta: uncoupled\n\nbrown: blind");
+    assert_eq!(key(&entity_path::ERROR_COLORS), "orange: executed\n\nbrown: blind");
 }
 
 /// Runs that are executed say more than the plan of a baseline.

@@ -51,11 +51,14 @@ impl Arrow {
         force.try_normalize(0.0).unwrap_or_default() * length_m * self.share
     }
 
-    /// Where arrow number `number` of those that are felt at a tool starts, from 1 (m, world).
-    pub(super) fn beside(self, tool: &Point3<f64>, number: u8) -> Point3<f64> {
-        let start = tool + self.aside * (BESIDE_M * self.share * f64::from(number));
-        let sight = self.eye - start.coords;
-        start + sight.normalize() * BEFORE_M.min(sight.norm() / 2.0)
+    /// Where arrow number `number` of those that are felt at a tool starts, from 1 (m, world). Those along a force start beside each other.
+    pub(super) fn beside(self, tool: &Point3<f64>, number: u8, force: &Vector3<f64>) -> Point3<f64> {
+        let sight = (tool.coords - self.eye).normalize();
+        let along = if force.norm() < SMALLEST_N { Vector3::zeros() } else { (force - sight * sight.dot(force)).normalize() };
+        let aside = (self.aside - along * along.dot(&self.aside)).try_normalize(1e-3).unwrap_or(self.aside);
+        let start = tool + aside * (BESIDE_M * self.share * f64::from(number));
+        let to_eye = self.eye - start.coords;
+        start + to_eye.normalize() * BEFORE_M.min(to_eye.norm() / 2.0)
     }
 
     /// What all arrows of one kind have in common.
@@ -104,13 +107,19 @@ mod tests {
             let (camera, arrow) = arrow(share);
             let (right, sight) = (camera.right(), (camera.target - camera.eye).normalize());
             // What is seen of where it starts, in the plane of the tool.
-            let seen = |number: u8| {
-                let from_eye = arrow.beside(&camera.target.into(), number) - Point3::from(camera.eye);
-                assert!(from_eye.norm() < (camera.target - camera.eye).norm() - 0.1, "it starts before the tool");
-                from_eye * ((camera.target - camera.eye).norm() / from_eye.dot(&sight)) - (camera.target - camera.eye)
+            let seen = |number: u8, force: &Vector3<f64>| {
+                let to_tool = camera.target - camera.eye;
+                let to_start = arrow.beside(&camera.target.into(), number, force) - Point3::from(camera.eye);
+                assert!(to_start.norm() < to_tool.norm() - 0.1, "it starts before the tool");
+                to_start * (to_tool.norm() / to_start.dot(&sight)) - to_tool
             };
+            for angle in [0.0_f64, 0.3, 0.8, 1.5, 2.0, 3.0] {
+                let along = right * angle.cos() + right.cross(&sight) * angle.sin();
+                let [one, two] = [1, 2].map(|number| seen(number, &(5.0 * along + sight)).cross(&along).norm());
+                assert!(two - one > 4.0 * share * RADIUS_M, "{angle}: {one} {two}");
+            }
             for along in [right, right.cross(&sight)] {
-                let aside = |number: u8| seen(number).cross(&along).norm();
+                let aside = |number: u8| seen(number, &Vector3::zeros()).cross(&along).norm();
                 let [thick_m, way_m] = [RADIUS_M, f64::from(EXECUTED_M)].map(|radius_m| share * radius_m);
                 assert!(aside(1) > 2.0 * thick_m + way_m, "{} m", aside(1));
                 assert!(aside(2) - aside(1) > 4.0 * thick_m, "{} m", aside(2) - aside(1));

@@ -3,13 +3,12 @@
 use nalgebra::{Point3, Vector3};
 
 use super::frame::{Frame, HALF_HEIGHT};
-use super::workplace::{Moment, Workplace};
-use crate::robot::Body;
-use crate::world::{Object, ObjectKind, Parameters, Shapes};
+use super::then::{Scene, Then};
+use super::workplace::Workplace;
 
 /// From the work to the camera, whatever the distance: in front of the robot, at its left, above the table. Then, for work that something stands
 /// before: the same from its right, from above, from both sides, over its shoulders, and steeply from above.
-const VIEWS: [Vector3<f64>; 12] = [
+const VIEWS: [Vector3<f64>; 14] = [
     Vector3::new(1.10, 0.69, 0.32),
     Vector3::new(1.10, -0.69, 0.32),
     Vector3::new(0.45, 0.75, 1.05),
@@ -22,6 +21,8 @@ const VIEWS: [Vector3<f64>; 12] = [
     Vector3::new(0.3, -0.3, 1.27),
     Vector3::new(-0.3, 0.6, 1.15),
     Vector3::new(-0.3, -0.6, 1.15),
+    Vector3::new(-0.2, 0.25, 1.3),
+    Vector3::new(-0.2, -0.25, 1.3),
 ];
 
 /// A later view must show so much more, as a share of all that should be seen.
@@ -31,30 +32,13 @@ const CLEARLY: f64 = 0.1;
 const DISTANCE_M: f64 = 1.34;
 
 /// No camera is nearer (m).
-const NEAREST_M: f64 = 0.45;
-
-/// Of the arm, what is at most so far from the tool should be in the picture: as a share of the work's size, and at most (m).
-const ARM_SHARE: f64 = 0.7;
-const ARM_M: f64 = 0.6;
-
-/// How far the places around the tool lie that should be seen too (m).
-const AROUND_M: f64 = 0.1;
-
-/// Objects that the tool comes so near to, each way (m), belong to the work.
-const NEAR_M: f64 = 0.15;
+const NEAREST_M: f64 = 0.38;
 
 /// From the middle of the picture to words, as shares of the distance from the eye: to the side and downwards, so that a long line ends at the
 /// picture's edge. Then from one line of words to the next above it, and how far long ones reach to either side.
 const WORDS: [f64; 2] = [0.385, 0.46];
 const LINE: f64 = 0.055;
 const HALF_WORDS: f64 = 0.3;
-
-/// What is looked at: the objects of a scene, and the bodies of a robot.
-pub(super) struct Scene<'a> {
-    pub objects: &'a [Object],
-    pub parameters: &'a Parameters,
-    pub bodies: &'a [Body],
-}
 
 /// A camera: where it is, and what it looks at (m, world).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +62,9 @@ impl Camera {
         let hidden = views.map(|view| then.iter().map(|then| then.hidden(&view.eye, &ways)).sum::<f64>() / then.len().max(1) as f64);
         let least = hidden.iter().copied().fold(f64::INFINITY, f64::min);
         let first = hidden.iter().position(|hidden| *hidden <= least + CLEARLY).unwrap_or(0);
-        if std::env::var("H1").is_ok() { eprintln!("{hidden:.3?} {first} {:?}", views[first]); }
+        if std::env::var("H1").is_ok() {
+            eprintln!("{hidden:.3?} {first} {:?}", views[first]);
+        }
         views[first].beside_words(then.iter().flat_map(|then| &then.bulky).chain(&held))
     }
 
@@ -115,63 +101,13 @@ impl Camera {
     }
 }
 
-/// What there is at a moment of the work.
-struct Then {
-    /// All that may stand before something.
-    shapes: Shapes,
-    /// The tool and its surroundings (m, world).
-    tool: Vec<Point3<f64>>,
-    /// What should be in the picture, and the corners of all that is there (m, world).
-    held: Vec<Point3<f64>>,
-    bulky: Vec<Point3<f64>>,
-}
-
-impl Then {
-    fn at(moment: &Moment, work: &Workplace, scene: &Scene<'_>) -> Self {
-        let Scene { objects, parameters, bodies } = *scene;
-        let posed = |index: usize| (&objects[index], moment.objects.get(index).copied());
-        let all = Shapes::of_objects((0..objects.len()).map(posed), objects, parameters);
-        let robot = Shapes::of_robot(bodies, &moment.bodies);
-        let tool = around(&moment.tool);
-        // What everything stands on goes on beyond the picture.
-        let things = (0..objects.len()).filter(|index| !matches!(objects[*index].kind, ObjectKind::Table { .. }));
-        let near = things.map(|index| Shapes::of_objects([posed(index)], objects, parameters).corners());
-        let mut held: Vec<Point3<f64>> = near.filter(|corners| is_near(corners, &work.places)).flatten().collect();
-        let arm_m = (ARM_SHARE * work.size.norm()).min(ARM_M);
-        let arm = moment.bodies.iter().map(|pose| Point3::from(pose.translation.vector));
-        held.extend(arm.filter(|place| (place.coords - moment.tool).norm() <= arm_m));
-        held.extend(&tool);
-        let bulky = robot.corners();
-        Self { shapes: all.with(robot), tool, held, bulky }
-    }
-
-    /// Which share of the tool's surroundings and of the ways is hidden from an eye (m, world), the ways as a whole as much as the tool.
-    fn hidden(&self, eye: &Vector3<f64>, ways: &[Point3<f64>]) -> f64 {
-        let share = |points: &[Point3<f64>]| self.shapes.hidden(&Point3::from(*eye), points) as f64 / points.len().max(1) as f64;
-        (share(&self.tool) + share(ways)) / 2.0
-    }
-}
-
-/// Whether the box around some corners is near a place.
-fn is_near(corners: &[Point3<f64>], places: &[Vector3<f64>]) -> bool {
-    let Some(first) = corners.first().map(|corner| corner.coords) else { return false };
-    let ends = |(low, high): (Vector3<f64>, Vector3<f64>), corner: &Point3<f64>| (low.inf(&corner.coords), high.sup(&corner.coords));
-    let (low, high) = corners.iter().fold((first, first), ends);
-    places.iter().any(|place| (place.sup(&low).inf(&high) - place).amax() < NEAR_M)
-}
-
-/// A place and its surroundings.
-fn around(place: &Vector3<f64>) -> Vec<Point3<f64>> {
-    let beside = (0..3).flat_map(|axis| [AROUND_M, -AROUND_M].map(|m| place + Vector3::ith(axis, m)));
-    std::iter::once(*place).chain(beside).map(Point3::from).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::{Isometry3, Vector2};
 
+    use super::super::workplace::Moment;
     use super::*;
-    use crate::world::Quantity;
+    use crate::world::{Object, ObjectKind, Parameters, Quantity};
 
     fn work(objects: Vec<Isometry3<f64>>) -> Workplace {
         let places = [Vector3::new(0.6, -0.1, 0.2), Vector3::new(0.6, 0.7, 0.2)];

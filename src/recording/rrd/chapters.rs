@@ -5,7 +5,7 @@ use rerun::{RecordingStream, ViewCoordinates};
 
 use super::arrow::Arrow;
 use super::axis_range::Ranges;
-use super::camera::{Camera, Scene};
+use super::camera::Camera;
 use super::dashes::Dashes;
 use super::entity_path::WORLD;
 use super::force_figure::Told;
@@ -13,6 +13,7 @@ use super::layout::Shown;
 use super::paths::Path;
 use super::recorder::{Fault, Recorder};
 use super::teaching_figure::Lessons;
+use super::then::Scene;
 use super::workplace::Workplace;
 use super::{
     baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,

@@ -10,13 +10,18 @@ use super::recorder::Fault;
 use crate::simulation::StepRecord;
 
 /// How long the part of a way is on which one path may be thick, and how much of it is (m), seen from far. The rest is the executed path's.
-const SLOT_M: f64 = 0.05;
-const DASH_M: f64 = 0.034;
+const SLOT_M: f64 = 0.036;
+const DASH_M: f64 = 0.026;
 
-/// Radii of dashes, of those of taught paths, which are many, and of what is between the dashes (m), seen from far.
+/// Radii of dashes and of what is between them (m), seen from far.
 const DASH_RADIUS_M: f64 = 0.0065;
-const TAUGHT_RADIUS_M: f64 = 0.0045;
 const BETWEEN_M: f64 = 0.0016;
+
+/// The same of taught paths, which are many. They are seen between their dashes only where they are so far from the plan (m), or they would
+/// hide all others there.
+const TAUGHT_RADIUS_M: f64 = 0.0055;
+const TAUGHT_BETWEEN_M: f64 = 0.002;
+const APART_M: f64 = 0.012;
 
 /// A path is at most so much ahead of the plan or behind it, as a share of the time.
 const AHEAD: f64 = 0.12;
@@ -30,6 +35,14 @@ pub(super) enum Slot {
     Taught,
     /// What stands beside it, by number.
     Other(usize),
+}
+
+/// How a path looks at some place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Look {
+    Dash,
+    Between,
+    Nothing,
 }
 
 /// Where on the way along the plan which path is thick.
@@ -57,53 +70,53 @@ impl Dashes {
 
     /// A path that is known as a whole, from its places (m, world) at shares of the time: a thin line with thick dashes.
     pub fn whole(&self, places: &[(f64, Vector3<f64>)], slot: Slot) -> LineStrips3D {
-        let all = places.iter().map(|(_, place)| convert::vector(place)).collect();
-        let mut strips: Vec<Vec<[f32; 3]>> = vec![all];
-        let mut inside = false;
-        for (share, place) in places {
-            let thick = self.is_thick((*share, place), slot);
-            if thick && !inside {
-                strips.push(Vec::new());
+        let looks: Vec<Look> = places.iter().map(|(share, place)| self.look((*share, place), slot)).collect();
+        let mut strips: Vec<(Look, Vec<[f32; 3]>)> = Vec::new();
+        for (i, look) in looks.iter().enumerate() {
+            let here = convert::vector(&places[i].1);
+            match strips.last_mut() {
+                Some((last, strip)) if last == look => strip.push(here),
+                // Nothing is missing between two that follow each other.
+                _ => strips.push((*look, vec![convert::vector(&places[i.saturating_sub(1)].1), here])),
             }
-            inside = thick;
-            strips.last_mut().filter(|_| thick).into_iter().for_each(|strip| strip.push(convert::vector(place)));
         }
-        let radii: Vec<f32> = (0..strips.len()).map(|i| self.radius_m(slot, i > 0)).collect();
-        LineStrips3D::new(strips).with_radii(radii)
+        strips.retain(|(look, _)| *look != Look::Nothing);
+        let radii: Vec<f32> = strips.iter().map(|(look, _)| self.radius_m(slot, *look)).collect();
+        LineStrips3D::new(strips.into_iter().map(|(_, strip)| strip)).with_radii(radii)
     }
 
     /// A path that grows, piece by piece, each thick or thin.
     pub fn growing(&self, records: &[StepRecord], slot: Slot) -> Result<impl Iterator<Item = SerializedComponentColumn> + use<>, Fault> {
-        let thick = |record: &StepRecord| self.is_thick((record.time_fraction, &record.tool.translation.vector), slot);
-        let radii = records.iter().map(|record| self.radius_m(slot, thick(record)));
+        let look = |record: &StepRecord| self.look((record.time_fraction, &record.tool.translation.vector), slot);
+        let radii = records.iter().map(|record| self.radius_m(slot, look(record)));
         Ok(LineStrips3D::update_fields().with_strips(pieces(records)).with_radii(radii).columns_of_unit_batches()?)
     }
 
-    /// Radius (m) in a dash or between two.
-    fn radius_m(&self, slot: Slot, thick: bool) -> f32 {
-        let radius_m = match (thick, slot) {
-            (false, _) => BETWEEN_M,
-            (true, Slot::Taught) => TAUGHT_RADIUS_M,
-            (true, _) => DASH_RADIUS_M,
-        };
+    /// Radius (m) of what looks so.
+    fn radius_m(&self, slot: Slot, look: Look) -> f32 {
+        let [dash_m, between_m] = if slot == Slot::Taught { [TAUGHT_RADIUS_M, TAUGHT_BETWEEN_M] } else { [DASH_RADIUS_M, BETWEEN_M] };
+        let radius_m = if look == Look::Dash { dash_m } else { between_m };
         (radius_m * self.share) as f32
     }
 
-    /// Whether a path is thick at a place (m, world) that it reaches after a share of the time. How far that is along the way the plan tells: it
-    /// is the same for all paths there, however they came.
-    fn is_thick(&self, (time, place): (f64, &Vector3<f64>), slot: Slot) -> bool {
+    /// How a path looks at a place (m, world) that it reaches after a share of the time. How far that is along the way the plan tells: it is
+    /// the same for all paths there, however they came.
+    fn look(&self, (time, place): (f64, &Vector3<f64>), slot: Slot) -> Look {
         let time = time.clamp(0.0, 1.0);
         let near = self.plan.iter().filter(|(planned, ..)| (planned - time).abs() <= AHEAD);
-        let nearest = near.min_by(|(_, a, _), (_, b, _)| (a - place).norm().total_cmp(&(b - place).norm()));
+        let apart = near.map(|(_, planned, way_m)| ((planned - place).norm(), *way_m));
+        let Some((apart_m, way_m)) = apart.min_by(|(a, _), (b, _)| a.total_cmp(b)) else { return Look::Between };
         let number = match slot {
             Slot::Planned => 0,
             Slot::Taught => 1,
             Slot::Other(number) => 2 + number,
         };
-        nearest.is_some_and(|(.., way_m)| {
-            let within_m = way_m / self.share - number as f64 * SLOT_M;
-            within_m.rem_euclid(self.slots as f64 * SLOT_M) < DASH_M
-        })
+        let within_m = way_m / self.share - number as f64 * SLOT_M;
+        match within_m.rem_euclid(self.slots as f64 * SLOT_M) < DASH_M {
+            true => Look::Dash,
+            false if slot == Slot::Taught && apart_m < APART_M * self.share => Look::Nothing,
+            false => Look::Between,
+        }
     }
 }
 
@@ -131,7 +144,7 @@ mod tests {
     fn no_path_hides_another() {
         for share in [1.0, 0.3] {
             let dashes = dashes(share);
-            let thick = |y: f64| SLOTS.map(|slot| dashes.is_thick((y, &Vector3::new(0.002, y, 0.0)), slot));
+            let thick = |y: f64| SLOTS.map(|slot| dashes.look((y, &Vector3::new(0.002, y, 0.0)), slot) == Look::Dash);
             let along: Vec<[bool; 4]> = (0..1000).map(|i| thick(f64::from(i) * 1e-3)).collect();
             assert!(along.iter().all(|thick| thick.iter().filter(|thick| **thick).count() <= 1));
             assert!((0..4).all(|slot| along.iter().any(|thick| thick[slot])) && along.contains(&[false; 4]));
@@ -145,18 +158,21 @@ mod tests {
         for i in 0..90 {
             let place = Vector3::new(0.0, f64::from(i) * 1e-2, 0.0);
             for slot in SLOTS {
-                assert_eq!(dashes.is_thick((place.y, &place), slot), dashes.is_thick((place.y + 0.1, &place), slot));
+                assert_eq!(dashes.look((place.y, &place), slot), dashes.look((place.y + 0.1, &place), slot));
             }
         }
     }
 
-    /// Contract: nothing of a path is left out.
+    /// Contract: nothing of a path is left out, but of taught ones what lies on the plan.
     #[test]
     fn a_path_is_drawn_from_end_to_end() {
-        let places: Vec<(f64, Vector3<f64>)> = (0..=50).map(|i| (f64::from(i) / 50.0, Vector3::y() * f64::from(i) / 50.0)).collect();
         let dashes = dashes(1.0);
-        let drawn = dashes.whole(&places, Slot::Planned);
-        let strips = drawn.strips.expect("strips").list_array().expect("a list").clone();
-        assert!(strips.len() > 3, "{} strips", strips.len());
+        let looks = |slot: Slot, x: f64| -> Vec<Look> {
+            (0..1000).map(|i| f64::from(i) * 1e-3).map(|y| dashes.look((y, &Vector3::new(x, y, 0.0)), slot)).collect()
+        };
+        for slot in SLOTS {
+            assert!(!looks(slot, 0.05).contains(&Look::Nothing));
+            assert_eq!(looks(slot, 0.001).contains(&Look::Nothing), slot == Slot::Taught);
+        }
     }
 }

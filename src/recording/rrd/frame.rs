@@ -11,6 +11,9 @@ const ASIDE: f64 = 1.15 * HALF_HEIGHT;
 const ABOVE: f64 = 0.88 * HALF_HEIGHT;
 const BELOW: f64 = 0.74 * HALF_HEIGHT;
 
+/// How much of the room above and below is above.
+const ROOM_ABOVE: f64 = 0.7;
+
 /// How a picture lies in space when it is seen along a direction: what is at its right, at its top, and before it (unit vectors, world).
 pub(super) struct Frame {
     right: Vector3<f64>,
@@ -47,8 +50,9 @@ impl Frame {
         let room = [(sides[0] + sides[1]) / (2.0 * ASIDE), (above + below) / (ABOVE + BELOW), middle + nearest_m];
         let away = room.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let aside = (sides[0] - sides[1]) / 2.0;
-        // As much room above as below.
-        let up = ((above - ABOVE * away) + (BELOW * away - below)) / 2.0;
+        // Room that is left is above, where the arm is.
+        let [lowest, highest] = [above - ABOVE * away, BELOW * away - below];
+        let up = lowest + ROOM_ABOVE * (highest - lowest);
         let eye = self.right * aside + self.up * up + self.before * away;
         (eye, eye - self.before * (away - middle))
     }
@@ -61,14 +65,16 @@ mod tests {
     /// Contract: all points are in the picture, and from nearer they would not be.
     #[test]
     fn a_picture_holds_its_points_and_is_taken_from_near() {
-        let points: Vec<Point3<f64>> = (0..60).map(|i| f64::from(i) * 0.7).map(|a| Point3::new(0.5 + a.sin(), (1.3 * a).cos(), 0.2 * (2.1 * a).sin())).collect();
+        let points: Vec<Point3<f64>> =
+            (0..60).map(|i| f64::from(i) * 0.7).map(|a| Point3::new(0.5 + a.sin(), (1.3 * a).cos(), 0.2 * (2.1 * a).sin())).collect();
         for view in [Vector3::new(1.0, 0.6, 0.3), Vector3::new(0.2, -0.3, 1.0), Vector3::new(-0.5, 1.0, 0.7)] {
             let frame = Frame::seen_from(&view);
             let (eye, target) = frame.around(&points, 0.4);
             let holds = |eye: &Vector3<f64>, slack: f64| {
-                points.iter().filter_map(|point| frame.seen(eye, point)).all(|[aside, up]| {
-                    aside.abs() < ASIDE + slack && up < ABOVE + slack && up > -BELOW - slack
-                })
+                points
+                    .iter()
+                    .filter_map(|point| frame.seen(eye, point))
+                    .all(|[aside, up]| aside.abs() < ASIDE + slack && up < ABOVE + slack && up > -BELOW - slack)
             };
             assert!(holds(&eye, 1e-9) && !holds(&(eye + 0.05 * (target - eye)), 1e-9), "{eye} {target}");
             assert!((target - eye).normalize().dot(&view.normalize()) < -1.0 + 1e-9);

@@ -39,6 +39,7 @@ mod spread_figure;
 mod state_figure;
 mod task_states;
 mod teaching_figure;
+mod then;
 mod views;
 mod workplace;
 mod write;

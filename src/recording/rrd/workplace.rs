@@ -59,9 +59,7 @@ impl Workplace {
     /// Of the lessons.
     pub fn of_lessons(lessons: &[LessonRecord]) -> Self {
         let looks = lessons.iter().flat_map(|lesson| &lesson.looks);
-        Self::around(
-            looks.map(|look| Moment { tool: look.tool, objects: look.objects.clone(), bodies: look.bodies.clone() }).collect(),
-        )
+        Self::around(looks.map(|look| Moment { tool: look.tool, objects: look.objects.clone(), bodies: look.bodies.clone() }).collect())
     }
 
     /// Of the plan: where the objects and the arm will be is not known.
