@@ -20,7 +20,7 @@ pub(super) const RADIUS_M: f64 = 0.008;
 const BESIDE_M: f64 = 0.05;
 
 /// From there towards the eye (m): before the fingers, which would hide it. Where it is seen does not change.
-const BEFORE_M: f64 = 0.12;
+const BEFORE_M: f64 = 0.09;
 
 /// Forces below this are not drawn (N).
 pub(super) const SMALLEST_N: f64 = 0.25;
@@ -110,7 +110,7 @@ mod tests {
             let seen = |number: u8, force: &Vector3<f64>| {
                 let to_tool = camera.target - camera.eye;
                 let to_start = arrow.beside(&camera.target.into(), number, force) - Point3::from(camera.eye);
-                assert!(to_start.norm() < to_tool.norm() - 0.1, "it starts before the tool");
+                assert!(to_start.norm() < to_tool.norm() - 0.08, "it starts before the tool");
                 to_start * (to_tool.norm() / to_start.dot(&sight)) - to_tool
             };
             for angle in [0.0_f64, 0.3, 0.8, 1.5, 2.0, 3.0] {

@@ -15,7 +15,7 @@ const DASH_M: f64 = 0.026;
 
 /// Radii of dashes and of what is between them (m), seen from far.
 const DASH_RADIUS_M: f64 = 0.0065;
-const BETWEEN_M: f64 = 0.0016;
+const BETWEEN_M: f64 = 0.0012;
 
 /// The same of taught paths, which are many. They are seen between their dashes only where they are so far from the plan (m), or they would
 /// hide all others there.
