@@ -27,7 +27,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, 
         let path = Path::new(&demonstration.trajectory, duration_s);
         let name = demonstration.name.as_str();
         if let Some(places) = path.places() {
-            let line = dashes.whole(&places, Slot::Taught).with_colors([palette::TAUGHT]);
+            let line = dashes.whole(&places, Slot::Taught).with_colors([palette::TAUGHT_PATH]);
             recorder.from(Since::Start, TAUGHT_PATH.of(&[name]), &line)?;
         }
         for (axis, axis_name) in AXES.iter().enumerate() {
