@@ -43,9 +43,12 @@ const HALF_WORDS: f64 = 0.3;
 /// A camera: where it is, and what it looks at (m, world).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Camera {
+    /// Where it is.
     pub eye: Vector3<f64>,
+    /// What it looks at.
     pub target: Vector3<f64>,
-    /// How far it is from the work, as a share of its distance from large work: what is not part of the scene is drawn so much smaller.
+    /// How far it is from the work, as a share of its distance from large work, at most 1: what is not part of the scene is drawn so much
+    /// smaller.
     pub share: f64,
     /// Where words are: 1 at the right of the picture, -1 at the left.
     pub words: f64,
@@ -69,7 +72,7 @@ impl Camera {
     fn holding(points: &[Point3<f64>], view: Vector3<f64>) -> Self {
         let frame = Frame::seen_from(&view);
         let (eye, target) = frame.around(points, NEAREST_M);
-        Self { eye, target, share: (eye - target).norm() / DISTANCE_M, words: 1.0 }
+        Self { eye, target, share: ((eye - target).norm() / DISTANCE_M).min(1.0), words: 1.0 }
     }
 
     /// The same with words where fewer of `points` (world) are, at the right if in doubt.
@@ -178,7 +181,7 @@ mod tests {
         let far = seen(&work(Vec::new()), &[]);
         let small = Workplace::around(vec![Moment { tool: Vector3::zeros(), objects: Vec::new(), bodies: Vec::new() }]);
         let near = seen(&small, &[]);
-        assert!(near.share < 0.5 * far.share, "{} {}", near.share, far.share);
+        assert!(near.share < 0.6 * far.share, "{} {}", near.share, far.share);
         assert!((near.eye - near.target).norm() > NEAREST_M - 1e-9);
     }
 }

@@ -40,8 +40,11 @@ pub(super) enum Slot {
 /// How a path looks at some place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Look {
+    /// Thick, where others are not.
     Dash,
+    /// Thin, between two dashes.
     Between,
+    /// Not at all: others are there.
     Nothing,
 }
 

@@ -18,8 +18,11 @@ const NEAR_M: f64 = 0.15;
 
 /// What is looked at: the objects of a scene, and the bodies of a robot.
 pub(super) struct Scene<'a> {
+    /// The objects.
     pub objects: &'a [Object],
+    /// What their sizes and places refer to.
     pub parameters: &'a Parameters,
+    /// The robot's bodies.
     pub bodies: &'a [Body],
 }
 

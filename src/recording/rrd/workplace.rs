@@ -27,6 +27,7 @@ pub(super) struct Workplace {
     pub way: Vector3<f64>,
     /// Places on the ways that are shown (m, world), first on that of the tool.
     pub places: Vec<Vector3<f64>>,
+    /// Some moments of the work.
     pub moments: Vec<Moment>,
 }
 
