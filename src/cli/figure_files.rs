@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::figure::{ArmRun, Figure, arm_compliance, arm_forces, arm_forcing, arm_motion, arm_paths, arm_settings, arm_states, svg};
 use crate::learning::LearningError;
+use crate::palette::meaning;
 use crate::report::{OutputError, write_file};
 use crate::simulation::{Experiment, RunOutcome};
 
@@ -25,7 +26,8 @@ pub(super) fn of_arm(run: &ArmRun) -> Result<Vec<Named>, LearningError> {
 pub(super) fn arm_run<'a>(experiment: &'a Experiment, left: &'a RunOutcome) -> Result<ArmRun<'a>, LearningError> {
     let learned = (&left.skill, &left.dataset, &experiment.learning);
     let run = ArmRun::new(title(&experiment.name, experiment.seed), &left.steps, learned, experiment.question())?;
-    let others = left.beside.iter().map(|one| (one.name.as_str(), &one.outcome.steps[..])).collect();
+    let colors = meaning::beside(left.beside.iter().map(|one| &one.changes[..]));
+    let others = left.beside.iter().zip(colors).map(|(one, (color, _))| (one.name.as_str(), color, &one.outcome.steps[..])).collect();
     Ok(run.in_scene(&experiment.objects, &experiment.parameters).beside(others))
 }
 

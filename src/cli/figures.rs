@@ -15,6 +15,7 @@ use super::recorded_run::{RecordedManifest, SCENARIO};
 use super::terminal::Terminal;
 use crate::demonstration::Dataset;
 use crate::figure::ArmRun;
+use crate::palette::{Rgb, meaning};
 use crate::recording::read_step_log;
 use crate::report::Outcome;
 use crate::scenario::{LoadOptions, PlanarRun, Scenario, Work};
@@ -68,21 +69,23 @@ fn of_folder(folder: &Path, global: &Global, terminal: &Terminal) -> Result<Vec<
 
 fn stored_arm(folder: &Path, experiment: &Experiment, beside: &[Variation], terminal: &Terminal) -> Result<Vec<Named>, Failure> {
     let steps = read(&folder.join(STEP_LOG))?;
-    let places = beside.iter().map(|one| (one.name.as_str(), folder.join(BESIDE).join(format!("{}.parquet", one.name))));
-    let (there, missing): (Vec<_>, Vec<_>) = places.partition(|(_, place)| place.is_file());
+    let colors = meaning::beside(beside.iter().map(|one| &one.changes[..]));
+    let place = |one: &Variation| folder.join(BESIDE).join(format!("{}.parquet", one.name));
+    let places = beside.iter().zip(colors).map(|(one, (color, _))| (one.name.as_str(), color, place(one)));
+    let (there, missing): (Vec<_>, Vec<_>) = places.partition(|(.., place)| place.is_file());
     // What could not be executed beside the run left nothing.
-    for (name, place) in missing {
+    for (name, _, place) in missing {
         terminal.note(&format!("the run left no {}: its figures are drawn without `{name}`\n", place.display()));
     }
-    let others: Vec<(&str, Vec<StepRecord>)> =
-        there.into_iter().map(|(name, place)| Ok((name, read(&place)?))).collect::<Result<_, Failure>>()?;
+    let others: Vec<(&str, Rgb, Vec<StepRecord>)> =
+        there.into_iter().map(|(name, color, place)| Ok((name, color, read(&place)?))).collect::<Result<_, Failure>>()?;
     let path = folder.join(SKILL);
     let skill = read_skill(&path)?;
     let place = folder.join(DEMONSTRATIONS);
     let dataset = Dataset::read(&place).map_err(|error| Failure::of_data(&place, &error))?;
     let learned = (&skill, &dataset, &experiment.learning);
     let run = ArmRun::new(title(&experiment.name, experiment.seed), &steps, learned, experiment.question());
-    let others = others.iter().map(|(name, steps)| (*name, &steps[..])).collect();
+    let others = others.iter().map(|(name, color, steps)| (*name, *color, &steps[..])).collect();
     run.and_then(|run| of_arm(&run.in_scene(&experiment.objects, &experiment.parameters).beside(others)))
         .map_err(|error| Failure::of_learning(&path, &error))
 }

@@ -5,7 +5,7 @@ use nalgebra::{DVector, Point3};
 use crate::demonstration::{Dataset, Trajectory};
 use crate::learning::{ExecutionSettings, LearningError, LearningSettings, Skill, TaskSpaceState, generate, task_space_states};
 use crate::palette::Rgb;
-use crate::palette::meaning::{BESIDE, COMPLIES, MINIMISES, STIFF};
+use crate::palette::meaning::{COMPLIES, MINIMISES, STIFF};
 use crate::simulation::{StepRecord, skill_duration_s};
 use crate::world::{Object, Parameters};
 
@@ -47,8 +47,8 @@ pub struct ArmRun<'a> {
     plan: Trajectory,
     /// Its states in the setting, which comply as the coupling says; none for the baseline.
     pub(super) states: Vec<TaskSpaceState>,
-    /// What was executed beside it, each with its name.
-    pub(super) beside: Vec<(&'a str, &'a [StepRecord])>,
+    /// What was executed beside it, each with its name and colour.
+    pub(super) beside: Vec<(&'a str, Rgb, &'a [StepRecord])>,
     /// Ways on which doors of the scene lead their handles in use.
     pub(super) arcs: Vec<Arc>,
 }
@@ -84,28 +84,26 @@ impl<'a> ArmRun<'a> {
         self
     }
 
-    /// The same beside other executions, each with its name.
+    /// The same beside other executions, each with its name and colour.
     #[must_use]
-    pub fn beside(self, others: Vec<(&'a str, &'a [StepRecord])>) -> Self {
+    pub fn beside(self, others: Vec<(&'a str, Rgb, &'a [StepRecord])>) -> Self {
         Self { beside: others, ..self }
     }
 
     /// What stands beside the run as lines of a width (pt): `points` of its records, in its colour, under its name; none where those are none.
     pub(super) fn others(&self, width_pt: f64, points: impl Fn(&[StepRecord]) -> Option<Curve>) -> impl Iterator<Item = Mark> {
-        let line = move |(index, (name, steps)): (usize, &(&str, &[StepRecord]))| {
-            Some(Mark::line(name, BESIDE[index % BESIDE.len()].0, width_pt, points(steps)?))
-        };
-        self.beside.iter().enumerate().filter_map(line)
+        let line = move |(name, color, steps): &(&str, Rgb, &[StepRecord])| Some(Mark::line(name, *color, width_pt, points(steps)?));
+        self.beside.iter().filter_map(line)
     }
 
     /// The plans of what stands beside the run, each with its name and colour, at the times (s) and places (m, world) of its records; none of one
     /// that plans as the run does.
     pub(super) fn other_plans(&self) -> impl Iterator<Item = (String, Rgb, Vec<Moment>)> {
         let own = plan_of(self.steps);
-        self.beside.iter().enumerate().filter_map(move |(index, (name, steps))| {
+        self.beside.iter().filter_map(move |(name, color, steps)| {
             let plan = plan_of(steps);
             let same = |(own, other): (&Moment, &Moment)| (own.1 - other.1).norm() < SAME_PLAN_M;
-            (!own.iter().zip(&plan).all(same)).then(|| (format!("{name}, planned"), BESIDE[index % BESIDE.len()].0, plan))
+            (!own.iter().zip(&plan).all(same)).then(|| (format!("{name}, planned"), *color, plan))
         })
     }
 

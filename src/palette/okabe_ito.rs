@@ -1,5 +1,6 @@
-//! The colours of M. Okabe and K. Ito, "Color Universal Design" (2008), and a grey for what stands behind. Magenta and
-//! brown, for comparisons, are as bright as each other and darker than orange: they and violet are seen on black and on white.
+//! The colours of M. Okabe and K. Ito, "Color Universal Design" (2008), and a grey for what stands behind. Magenta,
+//! brown, lime and maroon are for comparisons: who does not tell their hues apart sees that lime is lighter and maroon darker than the others.
+//! They and violet are seen on black and on white.
 
 use super::Rgb;
 
@@ -25,5 +26,9 @@ pub const MAGENTA: Rgb = Rgb::new(221, 52, 151);
 pub const VIOLET: Rgb = Rgb::new(126, 98, 226);
 /// Brown.
 pub const BROWN: Rgb = Rgb::new(160, 100, 50);
+/// Lime, lighter than every green beside it.
+pub const LIME: Rgb = Rgb::new(136, 204, 119);
+/// Maroon, darker than every other but black.
+pub const MAROON: Rgb = Rgb::new(150, 35, 65);
 /// Grey, for what stands behind the data.
 pub const GREY: Rgb = Rgb::new(150, 150, 150);

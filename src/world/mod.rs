@@ -46,7 +46,7 @@ pub use proximity::{Clearance, nearest_of_each};
 pub use recent_touches::TouchPoint;
 pub use scene::{ObjectPart, PartShape, fixed_parts, object_parts};
 pub use sensors::{EffortSensors, SensorSettings};
-pub use sight::hidden_count;
+pub use sight::Shapes;
 pub use simulated_world::{World, WorldSettings};
 pub use snapshot::{WorldSnapshot, WorldState};
 pub use state_trace::{BodyState, QUANTITIES, Quantum, StateTrace};

@@ -9,6 +9,7 @@ use cpdmp::figure::{
 use cpdmp::learning::cpdmp::{CouplingMode, CouplingSettings};
 use cpdmp::learning::{ExecutionSettings, LearningSettings};
 use cpdmp::palette::meaning::{self, MINIMISES, STIFF};
+use cpdmp::palette::{LIME, MAROON};
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::{RunOutcome, StepRecord};
 use nalgebra::{Matrix2, Vector2};
@@ -341,11 +342,12 @@ fn every_figure_can_be_drawn_also_for_a_skill_without_states() {
 #[test]
 fn what_was_executed_beside_the_run_is_drawn_in_a_colour_of_its_own() {
     let parts = Parts::of(compared());
-    let others = || parts.outcome.beside.iter().map(|one| (one.name.as_str(), &one.outcome.steps[..])).collect();
-    let run = parts.run().beside(others());
+    let colors = meaning::beside(parts.outcome.beside.iter().map(|one| &one.changes[..]));
+    let others = parts.outcome.beside.iter().zip(&colors).map(|(one, (color, _))| (one.name.as_str(), *color, &one.outcome.steps[..]));
+    let run = parts.run().beside(others.collect());
     let (motion, forces) = (arm_motion(&run), arm_forces(&run));
     let paths = arm_paths(&run).expect("the tool moves");
-    for (one, (color, _)) in parts.outcome.beside.iter().zip(meaning::BESIDE) {
+    for (one, (color, _)) in parts.outcome.beside.iter().zip(colors) {
         let steps = &one.outcome.steps;
         for axis in 0..3 {
             let places: Vec<[f64; 2]> = steps.iter().map(|step| [step.time_s, step.tool.translation.vector[axis]]).collect();
@@ -363,7 +365,7 @@ fn what_was_executed_beside_the_run_is_drawn_in_a_colour_of_its_own() {
     // Who expects no force has no force that is unexpected.
     let mut blind = parts.outcome.beside[0].outcome.steps.clone();
     blind.iter_mut().for_each(|step| step.expected_force.fill(0.0));
-    let two = vec![("blind", &blind[..]), ("expecting", &parts.outcome.beside[0].outcome.steps[..])];
+    let two = vec![("blind", LIME, &blind[..]), ("expecting", MAROON, &parts.outcome.beside[0].outcome.steps[..])];
     let forces = arm_forces(&parts.run().beside(two));
     assert!(marks(&forces.panels[1], "blind").is_empty() && marks(&forces.panels[1], "expecting").len() == 1);
     assert!(marks(&forces.panels[0], "blind").len() == 1 && marks(&forces.panels[0], "expecting").len() == 1);
@@ -402,7 +404,8 @@ fn another_plan_is_drawn_and_the_same_one_is_not() {
         step.deviation.x += 0.03;
     }
     elsewhere.iter_mut().for_each(|step| step.reference.translation.vector.x += 0.03);
-    let figure = arm_paths(&parts.run().beside(vec![("pushed", &pushed[..]), ("elsewhere", &elsewhere[..])])).expect("a path");
+    let figure =
+        arm_paths(&parts.run().beside(vec![("pushed", LIME, &pushed[..]), ("elsewhere", MAROON, &elsewhere[..])])).expect("a path");
     let above = &figure.panels[0];
     assert!(marks(above, "pushed, planned").is_empty());
     let place = |step: &StepRecord| {

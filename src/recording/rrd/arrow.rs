@@ -1,6 +1,6 @@
 //! Forces as arrows in a scene: how long, how thick, and where they start.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use rerun::{Arrows3D, Color};
 
 use super::camera::Camera;
@@ -19,6 +19,9 @@ pub(super) const RADIUS_M: f64 = 0.008;
 /// and each other.
 const BESIDE_M: f64 = 0.05;
 
+/// From there towards the eye (m): before the fingers, which would hide it. Where it is seen does not change.
+const BEFORE_M: f64 = 0.09;
+
 /// Forces below this are not drawn (N).
 pub(super) const SMALLEST_N: f64 = 0.25;
 
@@ -28,12 +31,14 @@ pub(super) struct Arrow {
     share: f64,
     /// To the upper right of the picture: whether a way leads to the side or upwards, what starts there is beside it.
     aside: Vector3<f64>,
+    /// Where the camera is (m, world).
+    eye: Vector3<f64>,
 }
 
 impl Arrow {
     pub(super) fn seen_by(camera: &Camera) -> Self {
         let (right, sight) = (camera.right(), (camera.target - camera.eye).normalize());
-        Self { share: camera.share, aside: (right + right.cross(&sight)).normalize() }
+        Self { share: camera.share, aside: (right + right.cross(&sight)).normalize(), eye: camera.eye }
     }
 
     /// The arrow of a force (m): as long as the force is large, up to the most that a person helps with; of larger ones no longer than can be
@@ -46,9 +51,14 @@ impl Arrow {
         force.try_normalize(0.0).unwrap_or_default() * length_m * self.share
     }
 
-    /// From the tool to the start of arrow number `number` of those that are felt there, from 1 (m).
-    pub(super) fn beside(self, number: u8) -> Vector3<f64> {
-        self.aside * (BESIDE_M * self.share * f64::from(number))
+    /// Where arrow number `number` of those that are felt at a tool starts, from 1 (m, world). Those along a force start beside each other.
+    pub(super) fn beside(self, tool: &Point3<f64>, number: u8, force: &Vector3<f64>) -> Point3<f64> {
+        let sight = (tool.coords - self.eye).normalize();
+        let along = if force.norm() < SMALLEST_N { Vector3::zeros() } else { (force - sight * sight.dot(force)).normalize() };
+        let aside = (self.aside - along * along.dot(&self.aside)).try_normalize(1e-3).unwrap_or(self.aside);
+        let start = tool + aside * (BESIDE_M * self.share * f64::from(number));
+        let to_eye = self.eye - start.coords;
+        start + to_eye.normalize() * BEFORE_M.min(to_eye.norm() / 2.0)
     }
 
     /// What all arrows of one kind have in common.
@@ -63,7 +73,7 @@ mod tests {
     use super::*;
 
     fn arrow(share: f64) -> (Camera, Arrow) {
-        let camera = Camera { eye: Vector3::new(1.1, 0.7, 0.3) * share, target: Vector3::new(0.1, 0.0, 0.1), share };
+        let camera = Camera { eye: Vector3::new(1.1, 0.7, 0.3) * share, target: Vector3::new(0.1, 0.0, 0.1), share, words: 1.0 };
         (camera, Arrow::seen_by(&camera))
     }
 
@@ -96,8 +106,20 @@ mod tests {
         for share in [1.0, 0.3] {
             let (camera, arrow) = arrow(share);
             let (right, sight) = (camera.right(), (camera.target - camera.eye).normalize());
+            // What is seen of where it starts, in the plane of the tool.
+            let seen = |number: u8, force: &Vector3<f64>| {
+                let to_tool = camera.target - camera.eye;
+                let to_start = arrow.beside(&camera.target.into(), number, force) - Point3::from(camera.eye);
+                assert!(to_start.norm() < to_tool.norm() - 0.08, "it starts before the tool");
+                to_start * (to_tool.norm() / to_start.dot(&sight)) - to_tool
+            };
+            for angle in [0.0_f64, 0.3, 0.8, 1.5, 2.0, 3.0] {
+                let along = right * angle.cos() + right.cross(&sight) * angle.sin();
+                let [one, two] = [1, 2].map(|number| seen(number, &(5.0 * along + sight)).cross(&along).norm());
+                assert!(two - one > 4.0 * share * RADIUS_M, "{angle}: {one} {two}");
+            }
             for along in [right, right.cross(&sight)] {
-                let aside = |number: u8| arrow.beside(number).cross(&along).norm();
+                let aside = |number: u8| seen(number, &Vector3::zeros()).cross(&along).norm();
                 let [thick_m, way_m] = [RADIUS_M, f64::from(EXECUTED_M)].map(|radius_m| share * radius_m);
                 assert!(aside(1) > 2.0 * thick_m + way_m, "{} m", aside(1));
                 assert!(aside(2) - aside(1) > 4.0 * thick_m, "{} m", aside(2) - aside(1));

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use rerun::{Color, LineStrips3D, Scalars, TextDocument};
 
-use super::camera::Camera;
+use super::dashes::{Dashes, Slot};
 use super::entity_path::{BESIDE_COLORS, BESIDE_ERROR, BESIDE_FORCE, BESIDE_MOTION, BESIDE_PATH, ERROR_COLORS, Entity};
 use super::palette;
-use super::paths::{AXES, pieces, style};
+use super::paths::{AXES, style};
 use super::recorder::{Fault, Recorder};
 use crate::learning::Skill;
 use crate::palette::meaning;
@@ -15,19 +15,24 @@ use crate::simulation::{Beside, StepRecord};
 /// What the run itself is called where others stand beside it.
 pub(super) const RUN: &str = "executed";
 
-/// The colour of number `index`, and the colour's name.
-pub(super) fn look(index: usize) -> (Color, &'static str) {
-    let (color, name) = meaning::BESIDE[index % meaning::BESIDE.len()];
-    (palette::rgb(color), name)
+/// What was executed beside a run, each with its colour and the colour's name.
+fn named(beside: &[Beside]) -> impl Iterator<Item = (&Beside, meaning::Named)> {
+    beside.iter().zip(meaning::beside(beside.iter().map(|one| &one.changes[..])))
 }
 
-/// Logs where the tool went, as a camera sees it, and the forces.
-pub(super) fn log_beside(recorder: &Recorder, beside: &Beside, index: usize, camera: &Camera) -> Result<(), Fault> {
-    let (color, _) = look(index);
+/// Logs everything that was executed beside the run: where its tool went, in dashes, and the forces.
+pub(super) fn log_all(beside: &[Beside], dashes: &Dashes, recorder: impl Fn(&[StepRecord]) -> Recorder) -> Result<(), Fault> {
+    for (number, (one, (color, _))) in named(beside).enumerate() {
+        log_beside(&recorder(&one.outcome.steps), one, palette::rgb(color), (Slot::Other(number), dashes))?;
+    }
+    Ok(())
+}
+
+fn log_beside(recorder: &Recorder, beside: &Beside, color: Color, (slot, dashes): (Slot, &Dashes)) -> Result<(), Fault> {
     let (name, records) = (beside.name.as_str(), &beside.outcome.steps);
     let path = BESIDE_PATH.of(&[name]);
-    recorder.always(path.clone(), &LineStrips3D::update_fields().with_colors([color]).with_radii([0.0032 * camera.share as f32]))?;
-    recorder.every_step(path, pieces(records)?)?;
+    recorder.always(path.clone(), &LineStrips3D::update_fields().with_colors([color]))?;
+    recorder.every_step(path, dashes.growing(records, slot)?)?;
     for (axis, axis_name) in AXES.iter().enumerate() {
         let entity = BESIDE_MOTION.of(&[axis_name, name]);
         recorder.always(entity.clone(), &style(name, color, 1.5))?;
@@ -60,8 +65,8 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], skill: &Sk
 pub(super) fn log_colors(recorder: &Recorder, beside: &[Beside], expects: bool) -> Result<(), Fault> {
     let log = |entity: &Entity, run: bool, shown: &dyn Fn(&Beside) -> bool| {
         let run = run.then(|| format!("orange: {RUN}"));
-        let others = beside.iter().enumerate().filter(|(_, one)| shown(one));
-        let others = others.map(|(index, one)| format!("{}: {}", look(index).1, in_short_lines(&one.name)));
+        let others = named(beside).filter(|(one, _)| shown(one));
+        let others = others.map(|(one, (_, color))| format!("{color}: {}", in_short_lines(&one.name)));
         let lines: Vec<String> = run.into_iter().chain(others).collect();
         recorder.always(entity.path(), &TextDocument::from_markdown(lines.join("\n\n")))
     };
@@ -76,14 +81,14 @@ fn in_short_lines(name: &str) -> String {
 
 /// The same in the words of the guide, with what each changes.
 pub(super) fn in_words(beside: &[Beside]) -> String {
-    let line = |(index, one): (usize, &Beside)| {
+    let line = |(one, (_, color)): (&Beside, meaning::Named)| {
         let changes: Vec<String> = one.changes.iter().map(|change| format!("`{change}`")).collect();
-        format!("- {}: `{}`, executed beside the run, with {}\n", look(index).1, one.name, changes.join(", "))
+        format!("- {color}: `{}`, executed beside the run, with {}\n", one.name, changes.join(", "))
     };
-    beside.iter().enumerate().map(line).collect()
+    named(beside).map(line).collect()
 }
 
 /// The same for a title.
 pub(super) fn for_title(beside: &[Beside]) -> String {
-    beside.iter().enumerate().map(|(index, one)| format!(", {} {}", one.name, look(index).1)).collect()
+    named(beside).map(|(one, (_, color))| format!(", {} {color}", one.name)).collect()
 }

@@ -6,11 +6,14 @@ use rerun::{RecordingStream, ViewCoordinates};
 use super::arrow::Arrow;
 use super::axis_range::Ranges;
 use super::camera::Camera;
+use super::dashes::Dashes;
 use super::entity_path::WORLD;
 use super::force_figure::Told;
 use super::layout::Shown;
+use super::paths::Path;
 use super::recorder::{Fault, Recorder};
 use super::teaching_figure::Lessons;
+use super::then::Scene;
 use super::workplace::Workplace;
 use super::{
     baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,
@@ -47,7 +50,7 @@ impl Chapters<'_> {
     pub fn layout(&self, robot: &RobotModel, taught: bool, play: PlayState) -> Result<(), Fault> {
         let Experiment { learning, execution, .. } = self.experiment;
         let shown = Shown {
-            camera: self.camera(),
+            camera: self.camera(robot),
             floor_m: self.floor_m(robot),
             way_m: self.work.way,
             taught,
@@ -63,7 +66,7 @@ impl Chapters<'_> {
 
     /// How the demonstrations were taught.
     pub fn lessons(&self, robot: &RobotModel, lessons: &[LessonRecord]) -> Result<(), Fault> {
-        let told = Lessons { lessons, number: 0, first: true, camera: self.camera() };
+        let told = Lessons { lessons, number: 0, first: true, camera: self.camera(robot) };
         teaching_figure::log_lessons(&self.recorder(&[]), self.experiment, robot, &told)
     }
 
@@ -71,20 +74,21 @@ impl Chapters<'_> {
     pub fn lesson(&self, robot: &RobotModel, (number, lesson): (usize, &LessonRecord), earliest: Option<usize>) -> Result<(), Fault> {
         let recorder = if earliest.is_some() { self.recorder(&[]).continues() } else { self.recorder(&[]) };
         let first = earliest.is_none_or(|earliest| number < earliest);
-        let told = Lessons { lessons: std::slice::from_ref(lesson), number, first, camera: self.camera() };
+        let told = Lessons { lessons: std::slice::from_ref(lesson), number, first, camera: self.camera(robot) };
         teaching_figure::log_lessons(&recorder, self.experiment, robot, &told)
     }
 
     /// What is known before the execution: demonstrations, their replays, skill and plan.
     pub fn skill(&self, outcome: &RunOutcome) -> Result<(), Fault> {
-        let (recorder, camera) = (self.recorder(&[]), self.camera());
+        let (recorder, camera) = (self.recorder(&[]), self.camera(&outcome.robot));
         recorder.always(WORLD.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
         guide::log_guide(&recorder, self.experiment, outcome)?;
         scene_key::log_key(&recorder, self.told(outcome), &task_states::betas(self.experiment, &outcome.skill)?)?;
         replay_figure::log_replays(&recorder, &outcome.dataset, Arrow::seen_by(&camera))?;
-        paths::log_known(&recorder, outcome, (self.duration_s, &camera))?;
+        let dashes = self.dashes(outcome, &camera);
+        paths::log_known(&recorder, outcome, (self.duration_s, &dashes))?;
         if self.compares() {
-            baseline::log_baseline(&recorder, self.experiment, outcome, &camera)?;
+            baseline::log_baseline(&recorder, self.experiment, outcome, &dashes)?;
         }
         state_figure::log_states(&recorder, self.experiment, outcome, (self.duration_s, &camera))?;
         forcing_figure::log_forcing(&recorder, self.experiment, outcome, self.duration_s)
@@ -95,7 +99,7 @@ impl Chapters<'_> {
         // What changes from one step to the next needs both.
         let records = &outcome.steps[from.saturating_sub(1)..];
         let recorder = if from == 0 { self.recorder(records) } else { self.recorder(records).continues() };
-        let camera = self.camera();
+        let camera = self.camera(&outcome.robot);
         robot_figure::log_robot(&recorder, &outcome.robot, records)?;
         scene_figure::log_objects(&recorder, self.experiment, records)?;
         paths::log_executed(&recorder, records, &camera)?;
@@ -113,15 +117,18 @@ impl Chapters<'_> {
 
     /// What is known when it is over.
     pub fn end(&self, outcome: &RunOutcome) -> Result<(), Fault> {
-        contact_figure::log_contacts(&self.recorder(&[]), outcome, &self.camera())?;
+        contact_figure::log_contacts(&self.recorder(&[]), outcome, &self.camera(&outcome.robot))?;
         if !self.beside.is_empty() {
             beside::log_forces(&self.recorder(&outcome.steps), &outcome.steps, &outcome.skill, (beside::RUN, palette::EXECUTED))?;
             beside::log_colors(&self.recorder(&[]), self.beside, outcome.skill.force.is_some())?;
         }
-        for (index, one) in self.beside.iter().enumerate() {
-            beside::log_beside(&self.recorder(&one.outcome.steps), one, index, &self.camera())?;
-        }
-        Ok(())
+        beside::log_all(self.beside, &self.dashes(outcome, &self.camera(&outcome.robot)), |records| self.recorder(records))
+    }
+
+    /// How paths that may be in one place are told apart.
+    fn dashes(&self, outcome: &RunOutcome, camera: &Camera) -> Dashes {
+        let others = self.beside.len() + usize::from(self.compares());
+        Dashes::along(&Path::new(&outcome.plan, outcome.plan.duration_s()), others, camera)
     }
 
     /// Which forces there are.
@@ -138,8 +145,9 @@ impl Chapters<'_> {
         Recorder::new((self.stream.clone(), self.ranges.clone()), records, self.experiment.physics.step_s, self.duration_s)
     }
 
-    fn camera(&self) -> Camera {
-        Camera::on(&self.work, &self.experiment.objects, &self.experiment.parameters)
+    fn camera(&self, robot: &RobotModel) -> Camera {
+        let Experiment { objects, parameters, .. } = self.experiment;
+        Camera::on(&self.work, &Scene { objects, parameters, bodies: &robot.bodies })
     }
 
     /// Height of the floor (m): that of the lowest point of the robot's fixed body. A robot that shows no body down to there stands on the

@@ -42,9 +42,9 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], told: Told
     let tool = |r: &StepRecord| Point3::from(r.tool.translation.vector);
     let measured = |r: &StepRecord| Vector3::from(r.wrench.fixed_rows::<3>(0));
     let arrows = Arrows { recorder, records, arrow };
-    arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (tool(r) + arrow.beside(1), measured(r)))?;
+    arrows.log(&WRENCH_ARROW, palette::MEASURED, |r| (arrow.beside(&tool(r), 1, &r.expected_force), measured(r)))?;
     if told.expected {
-        arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (tool(r) + arrow.beside(2), r.expected_force))?;
+        arrows.log(&EXPECTED_ARROW, palette::EXPECTED, |r| (arrow.beside(&tool(r), 2, &r.expected_force), r.expected_force))?;
     }
     arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point + to_surface(&r.human.force), r.human.force))?;
     let colors = [(MEASURED_COLOR, true), (MODEL_COLORS, told.expected), (PERSON_COLOR, told.person)];

@@ -11,6 +11,8 @@ pub(super) const fn rgb(color: Rgb) -> Color {
 
 /// What was taught.
 pub(super) const TAUGHT: Color = rgb(meaning::TAUGHT);
+/// The same in a scene: lighter, for objects are as bright as that.
+pub(super) const TAUGHT_PATH: Color = rgb(Rgb::new(208, 208, 208));
 /// What was generated.
 pub(super) const PLANNED: Color = rgb(meaning::PLANNED);
 /// What was executed.

@@ -118,7 +118,7 @@ impl<'a> Film<'a> {
             let before = if starts(i) { i } else { i - 1 };
             [convert::vector(&self.looks[before].tool), convert::vector(&self.looks[i].tool)]
         };
-        let look = LineStrips3D::update_fields().with_colors([palette::TAUGHT]).with_radii([0.003 * camera.share as f32]);
+        let look = LineStrips3D::update_fields().with_colors([palette::TAUGHT_PATH]).with_radii([0.003 * camera.share as f32]);
         recorder.always(TEACHING_PATH.path(), &look)?;
         let pieces = LineStrips3D::update_fields().with_strips((0..self.looks.len()).map(piece));
         recorder.on(TEACHING_TIME, TEACHING_PATH.path(), &self.times_s, pieces.columns_of_unit_batches()?)
