@@ -7,7 +7,7 @@ use super::judged_run::{JudgedRun, Left};
 use super::room::Room;
 use super::{figure_files, planar_files};
 use crate::recording;
-use crate::report::{FileHash, Manifest, Outcome, OutputError, RunFolder, RunReport, hash_bytes, hash_file, summary, write_file};
+use crate::report::{FileHash, Manifest, Outcome, OutputError, RunFolder, hash_bytes, hash_file, summary, write_file};
 use crate::scenario::{RecordingPlan, Scenario, Work};
 use crate::simulation::{Experiment, RunOutcome};
 
@@ -59,7 +59,7 @@ pub(super) fn write(
             spare();
             _ = write_file(&place, &reserve);
         }
-        recordings(left, scenario, &run.report, &mut room);
+        recordings(left, scenario, &summary(&run.report, &scenario.description), &mut room);
         _ = std::fs::remove_file(place);
     }
     let mut lost: Vec<String> = Vec::new();
@@ -91,11 +91,11 @@ fn vouched(run: &JudgedRun, scenario: &Scenario, folder: &RunFolder, started: Sy
     folder.write("manifest.json", &manifest.to_json())
 }
 
-/// What can only be written after a whole run.
-fn recordings(left: &Left, scenario: &Scenario, report: &RunReport, room: &mut Room<'_>) {
+/// What can only be written after a whole run, which ended as `result` says.
+fn recordings(left: &Left, scenario: &Scenario, result: &str, room: &mut Room<'_>) {
     match (left, &scenario.work) {
-        (Left::Arm(left), Work::Arm(experiment)) => of_arm((left, experiment), scenario.recording, report, room),
-        (Left::Planar(left), Work::Planar(run)) => planar_files::write((left, run), scenario.recording, report, room),
+        (Left::Arm(left), Work::Arm(experiment)) => of_arm((left, experiment), scenario.recording, result, room),
+        (Left::Planar(left), Work::Planar(run)) => planar_files::write((left, run), scenario.recording, result, room),
         _ => room.failures.push("what was run is not what the scenario asks for".to_owned()),
     }
 }
@@ -105,7 +105,7 @@ fn text<T, E: ToString>(result: Result<T, E>) -> Result<(), String> {
 }
 
 /// The archive first, what is drawn from it last.
-fn of_arm((left, experiment): (&RunOutcome, &Experiment), plan: RecordingPlan, report: &RunReport, room: &mut Room<'_>) {
+fn of_arm((left, experiment): (&RunOutcome, &Experiment), plan: RecordingPlan, result: &str, room: &mut Room<'_>) {
     if plan.steps {
         room.put(STEP_LOG, |place| text(recording::write_step_log(place, left)));
     }
@@ -131,7 +131,7 @@ fn of_arm((left, experiment): (&RunOutcome, &Experiment), plan: RecordingPlan, r
     }
     #[cfg(feature = "rerun")]
     if plan.rrd {
-        room.put("recording.rrd", |place| text(recording::write_recording(place, experiment, left, &summary(report))));
+        room.put("recording.rrd", |place| text(recording::write_recording(place, experiment, left, result)));
     }
 }
 

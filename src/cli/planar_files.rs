@@ -9,11 +9,11 @@ use crate::planar::{Guidance, LearnedSkill, Method, Movement, PlanarOutcome, Tra
 #[cfg(feature = "rerun")]
 use crate::recording::write_planar_recording;
 use crate::recording::{LoggedPath, write_path_log, write_state_log};
-use crate::report::{RunReport, summary, write_file};
+use crate::report::write_file;
 use crate::scenario::{PlanarRun, RecordingPlan};
 
 /// Writes everything: the archive first, what is drawn from it last.
-pub(super) fn write((left, run): (&PlanarOutcome, &PlanarRun), plan: RecordingPlan, report: &RunReport, room: &mut Room<'_>) {
+pub(super) fn write((left, run): (&PlanarOutcome, &PlanarRun), plan: RecordingPlan, result: &str, room: &mut Room<'_>) {
     if plan.steps {
         room.put("paths.parquet", |place| write_path_log(place, &paths(left)).map_err(|error| error.to_string()));
     }
@@ -37,9 +37,8 @@ pub(super) fn write((left, run): (&PlanarOutcome, &PlanarRun), plan: RecordingPl
     room.put("figures", |place| drawn(&figures, place));
     #[cfg(feature = "rerun")]
     if plan.rrd {
-        let result = summary(report);
         room.put("recording.rrd", |place| {
-            write_planar_recording(place, (&run.name, run.seed), left, &result).map_err(|error| error.to_string())
+            write_planar_recording(place, (&run.name, run.seed), left, result).map_err(|error| error.to_string())
         });
     }
 }

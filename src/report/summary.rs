@@ -3,10 +3,11 @@
 use super::table::figure;
 use super::{CriterionReport, RunReport, verdict};
 
-/// How the run ended and what was asked of it, in plain text: scenario, seed and outcome; then what is not plainly as it should be, each in a line
-/// of its own; then what is.
-pub fn summary(report: &RunReport) -> String {
+/// How the run ended and what was asked of it, in plain text: scenario, seed and outcome; what the scenario shows, in its own words; then what is not
+/// plainly as it should be, each in a line of its own; then what is.
+pub fn summary(report: &RunReport, description: &str) -> String {
     let mut lines = vec![format!("{}, seed {}: {}", report.scenario, report.seed, report.outcome.name().replace('_', " "))];
+    lines.extend((!description.is_empty()).then(|| description.to_owned()));
     lines.extend(report.error.clone());
     let (plain, others): (Vec<_>, Vec<_>) = report.criteria.iter().partition(|criterion| verdict::words(criterion) == verdict::OK);
     lines.extend(others.into_iter().map(criterion));

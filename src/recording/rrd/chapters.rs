@@ -1,5 +1,7 @@
 //! What a recording tells, chapter by chapter: all at once when the run is over, or one after the other while it happens.
 
+use std::cell::OnceCell;
+
 use rerun::blueprint::components::PlayState;
 use rerun::{RecordingStream, ViewCoordinates};
 
@@ -19,7 +21,7 @@ use super::{
     baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,
     replay_figure, robot_figure, scene_figure, scene_key, spread_figure, state_figure, task_states, teaching_figure,
 };
-use crate::learning::ShapingKind;
+use crate::learning::{ShapingKind, Skill};
 use crate::robot::{RobotModel, Shape};
 use crate::simulation::{Beside, Experiment, Help, LessonRecord, RunOutcome};
 use crate::world::support_height_m;
@@ -38,6 +40,8 @@ pub(super) struct Chapters<'a> {
     pub experiment: &'a Experiment,
     /// Where the tool does its work.
     pub work: Workplace,
+    /// What it is looked at with, once that is known.
+    pub camera: OnceCell<Camera>,
     /// How long the execution of the skill takes (s).
     pub duration_s: f64,
     /// What was executed beside the run.
@@ -46,9 +50,10 @@ pub(super) struct Chapters<'a> {
 
 impl Chapters<'_> {
     /// The layout that the recording opens with; with a page for the lessons when there are some. Plots of what has been told before are
-    /// as high as that.
-    pub fn layout(&self, robot: &RobotModel, taught: bool, play: PlayState) -> Result<(), Fault> {
+    /// as high as that. `skill` is what was learned, if that is known.
+    pub fn layout(&self, (robot, skill): (&RobotModel, Option<&Skill>), taught: bool, play: PlayState) -> Result<(), Fault> {
         let Experiment { learning, execution, .. } = self.experiment;
+        let betas = skill.map(|skill| task_states::betas(self.experiment, skill)).transpose()?;
         let shown = Shown {
             camera: self.camera(robot),
             floor_m: self.floor_m(robot),
@@ -56,7 +61,7 @@ impl Chapters<'_> {
             taught,
             baseline: self.compares(),
             beside: self.beside,
-            states: (learning.shaping != ShapingKind::Lwr).then(|| scene_key::colors_in_title(&execution.coupling)),
+            states: (learning.shaping != ShapingKind::Lwr).then(|| scene_key::colors_in_title(&execution.coupling, betas.as_deref())),
             person: execution.help != Help::None,
             scenario: &self.experiment.name,
         };
@@ -145,9 +150,16 @@ impl Chapters<'_> {
         Recorder::new((self.stream.clone(), self.ranges.clone()), records, self.experiment.physics.step_s, self.duration_s)
     }
 
+    /// The work is somewhere else than it seemed.
+    pub fn look_at(&mut self, work: Workplace) {
+        self.work = work;
+        self.camera = OnceCell::new();
+    }
+
+    /// What the work is looked at with; to find it takes a while, so it is done once.
     fn camera(&self, robot: &RobotModel) -> Camera {
         let Experiment { objects, parameters, .. } = self.experiment;
-        Camera::on(&self.work, &Scene { objects, parameters, bodies: &robot.bodies })
+        *self.camera.get_or_init(|| Camera::on(&self.work, &Scene { objects, parameters, bodies: &robot.bodies }))
     }
 
     /// Height of the floor (m): that of the lowest point of the robot's fixed body. A robot that shows no body down to there stands on the

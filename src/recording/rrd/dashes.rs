@@ -13,6 +13,9 @@ use crate::simulation::StepRecord;
 const SLOT_M: f64 = 0.036;
 const DASH_M: f64 = 0.026;
 
+/// Parts of the way that have an owner in any case: the executed path, the plan, what was taught.
+const OWN_SLOTS: usize = 3;
+
 /// Radii of dashes and of what is between them (m), seen from far.
 const DASH_RADIUS_M: f64 = 0.0065;
 const BETWEEN_M: f64 = 0.0012;
@@ -52,7 +55,7 @@ enum Look {
 pub(super) struct Dashes {
     /// How thick lines are, as a share of how thick they are seen from far.
     share: f64,
-    /// How many paths have a part of the way.
+    /// How many parts of the way follow each other before they begin anew.
     slots: usize,
     /// The plan: shares of the time, places (m, world), and how far they are along it (m); nothing for one that does not lead through space.
     plan: Vec<(f64, Vector3<f64>, f64)>,
@@ -68,7 +71,7 @@ impl Dashes {
             (share, place, way_m)
         };
         let plan = plan.places().unwrap_or_default().into_iter().map(&mut told).collect();
-        Self { share: camera.share, slots: 2 + others, plan }
+        Self { share: camera.share, slots: OWN_SLOTS + others, plan }
     }
 
     /// A path that is known as a whole, from its places (m, world) at shares of the time: a thin line with thick dashes.
@@ -110,9 +113,10 @@ impl Dashes {
         let apart = near.map(|(_, planned, way_m)| ((planned - place).norm(), *way_m));
         let Some((apart_m, way_m)) = apart.min_by(|(a, _), (b, _)| a.total_cmp(b)) else { return Look::Between };
         let number = match slot {
-            Slot::Planned => 0,
-            Slot::Taught => 1,
-            Slot::Other(number) => 2 + number,
+            // Number 0 is the executed path's own, which has no dashes.
+            Slot::Planned => 1,
+            Slot::Taught => 2,
+            Slot::Other(number) => OWN_SLOTS + number,
         };
         let within_m = way_m / self.share - number as f64 * SLOT_M;
         match within_m.rem_euclid(self.slots as f64 * SLOT_M) < DASH_M {

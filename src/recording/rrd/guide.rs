@@ -35,6 +35,7 @@ person may push it to where it should go (vermilion arrow). Ellipsoids and ellip
 each state, at two standard deviations.
 
 - grey: taught; blue: planned, what the skill generates for this setting without any force; orange: executed
+- in the scene the executed path is a line; all others are thick by turns, so that those in one place are all seen
 - black, where nothing was executed beside the run: what plain DMPs by locally weighted regression generate from the same demonstrations, when
   the skill is told parameters: they are not";
 

@@ -31,7 +31,7 @@ pub(super) struct Shown<'a> {
     /// What was executed beside the run.
     pub beside: &'a [Beside],
     /// What colours the states of the skill have, for a title; none when it has no states.
-    pub states: Option<&'static str>,
+    pub states: Option<String>,
     /// Whether the person helps.
     pub person: bool,
     /// The scenario's name.

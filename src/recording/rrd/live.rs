@@ -1,6 +1,7 @@
 //! A recording of a run while it happens, for a viewer or for the case that the run is killed. It runs beside the run on a thread of its own,
 //! which may fall behind, hang or fail: the run never waits for it, and what there is no room for is left out.
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::net::{SocketAddr, TcpStream};
 use std::path::Path;
@@ -137,7 +138,15 @@ impl LiveRecording {
 /// Records until the run is over, so many steps together.
 fn record(stream: RecordingStream, experiment: &Experiment, together: usize, news: &Receiver<News>) -> Result<(), Fault> {
     stream.send_recording_name(format!("{} (live)", name(experiment)))?;
-    let mut chapters = Chapters { stream, ranges: Ranges::default(), experiment, work: Workplace::default(), duration_s: 1.0, beside: &[] };
+    let mut chapters = Chapters {
+        stream,
+        ranges: Ranges::default(),
+        experiment,
+        work: Workplace::default(),
+        camera: OnceCell::new(),
+        duration_s: 1.0,
+        beside: &[],
+    };
     let mut planned: Option<Box<RunOutcome>> = None;
     let (mut opened, mut told, mut seen) = (false, 0, BTreeSet::new());
     for news in news {
@@ -145,8 +154,8 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
             News::Lesson(robot, number, lesson) => {
                 // What has been seen so far is where the work is, until all have been taught.
                 if seen.is_empty() {
-                    chapters.work = Workplace::of_lessons(std::slice::from_ref(&lesson));
-                    chapters.layout(&robot, true, PlayState::Following)?;
+                    chapters.look_at(Workplace::of_lessons(std::slice::from_ref(&lesson)));
+                    chapters.layout((&robot, None), true, PlayState::Following)?;
                     opened = true;
                 }
                 chapters.lesson(&robot, (number, &lesson), seen.first().copied())?;
@@ -155,8 +164,8 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
                 seen.insert(number);
             }
             News::Taught(robot, lessons) => {
-                chapters.work = Workplace::of_lessons(&lessons);
-                chapters.layout(&robot, true, PlayState::Following)?;
+                chapters.look_at(Workplace::of_lessons(&lessons));
+                chapters.layout((&robot, None), true, PlayState::Following)?;
                 opened = true;
                 for (number, lesson) in lessons.iter().enumerate() {
                     if !seen.contains(&number) {
@@ -168,8 +177,8 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
             News::Planned(outcome) => {
                 chapters.duration_s = outcome.plan.duration_s();
                 if !opened {
-                    chapters.work = Workplace::of_plan(&outcome).with_paths(&outcome);
-                    chapters.layout(&outcome.robot, false, PlayState::Following)?;
+                    chapters.look_at(Workplace::of_plan(&outcome).with_paths(&outcome));
+                    chapters.layout((&outcome.robot, Some(&outcome.skill)), false, PlayState::Following)?;
                 }
                 chapters.skill(&outcome)?;
                 chapters.result(None)?;

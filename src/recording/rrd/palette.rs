@@ -43,6 +43,6 @@ pub(super) const BACKGROUND: Color = rgb(Rgb::new(74, 82, 94));
 /// A lighter shade, for text on dark grey.
 pub(super) fn light(color: Color) -> Color {
     let [r, g, b, a] = color.to_array();
-    let lighter = |c: u8| c + (255 - c) / 5 * 2;
+    let lighter = |c: u8| c + (255 - c) / 5 * 3;
     Color::from_unmultiplied_rgba(lighter(r), lighter(g), lighter(b), a)
 }

@@ -46,7 +46,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, 
 }
 
 /// Radius of the executed path (m), seen from far: dashes are thicker, and are seen on it.
-pub(super) const EXECUTED_M: f32 = 0.0035;
+pub(super) const EXECUTED_M: f32 = 0.0045;
 
 /// Logs where the tool went, as a camera sees it.
 pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord], camera: &Camera) -> Result<(), Fault> {

@@ -37,13 +37,15 @@ fn colors_of(betas: &[f64]) -> Vec<&'static str> {
     kinds.into_iter().filter(|(kind, _)| there(*kind)).map(|(_, color)| color).collect()
 }
 
-/// The colours that states can have in this mode of the coupling, for a title.
-pub(super) fn colors_in_title(coupling: &CouplingSettings) -> &'static str {
-    match coupling.mode {
-        CouplingMode::MinimiseForceError => "minimises force violet, stiff green",
-        CouplingMode::Comply => "stiff green, complies purple",
-        CouplingMode::PerState(_) => "stiff green, complies purple, minimises force violet",
-    }
+/// The colours that states have, for a title: those of these betas; without any, those that they can have in this mode of the coupling. At its end
+/// a skill is stiff, whatever its states are.
+pub(super) fn colors_in_title(coupling: &CouplingSettings, betas: Option<&[f64]>) -> String {
+    let can_be: &[f64] = match coupling.mode {
+        CouplingMode::MinimiseForceError => &[1.0],
+        CouplingMode::Comply => &[-1.0],
+        CouplingMode::PerState(_) => &[-1.0, 1.0],
+    };
+    colors_of(&[&[0.0], betas.unwrap_or(can_be)].concat()).join(", ")
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Writes a recording from beginning to end.
 
+use std::cell::OnceCell;
 use std::path::Path;
 
 use rerun::RecordingStreamBuilder;
@@ -46,6 +47,7 @@ fn record(experiment: &Experiment, outcome: &RunOutcome, result: &str) -> Result
         ranges: Ranges::default(),
         experiment,
         work: Workplace::of_steps(&outcome.steps).with_paths(outcome),
+        camera: OnceCell::new(),
         duration_s: skill_duration_s(&outcome.steps).unwrap_or_else(|| outcome.plan.duration_s()),
         beside: &outcome.beside,
     };
@@ -56,7 +58,7 @@ fn record(experiment: &Experiment, outcome: &RunOutcome, result: &str) -> Result
     chapters.result(Some(result))?;
     stream.flush_blocking()?;
     let told = storage.take();
-    chapters.layout(&outcome.robot, !outcome.lessons.is_empty(), PlayState::Paused)?;
+    chapters.layout((&outcome.robot, Some(&outcome.skill)), !outcome.lessons.is_empty(), PlayState::Paused)?;
     stream.flush_blocking()?;
     // The layout depends on what is told, and comes before it: a viewer arranges what it reads while it still reads.
     Ok(Encoder::encode(storage.take().into_iter().chain(told).map(Ok))?)
