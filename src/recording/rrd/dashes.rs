@@ -17,13 +17,13 @@ const DASH_M: f64 = 0.026;
 const OWN_SLOTS: usize = 3;
 
 /// Radii of dashes and of what is between them (m), seen from far.
-const DASH_RADIUS_M: f64 = 0.0065;
+const DASH_RADIUS_M: f64 = 0.0055;
 const BETWEEN_M: f64 = 0.0012;
 
 /// The same of taught paths, which are many. They are seen between their dashes only where they are so far from the plan (m), or they would
 /// hide all others there.
-const TAUGHT_RADIUS_M: f64 = 0.005;
-const TAUGHT_BETWEEN_M: f64 = 0.0015;
+const TAUGHT_RADIUS_M: f64 = 0.0034;
+const TAUGHT_BETWEEN_M: f64 = 0.0012;
 const APART_M: f64 = 0.012;
 
 /// A path is at most so much ahead of the plan or behind it, as a share of the time.
