@@ -9,7 +9,7 @@ use cpdmp::figure::{
 use cpdmp::learning::cpdmp::{CouplingMode, CouplingSettings};
 use cpdmp::learning::{ExecutionSettings, LearningSettings};
 use cpdmp::palette::meaning::{self, MINIMISES, STIFF};
-use cpdmp::palette::{LIME, MAROON};
+use cpdmp::palette::{LIME, MAROON, Rgb};
 use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::{RunOutcome, StepRecord};
 use nalgebra::{Matrix2, Vector2};
@@ -252,22 +252,31 @@ fn the_legend_of_taught_settings_is_whole() {
     assert!(arm_settings(&blind.run()).expect("drawn").is_none(), "what makes no difference between settings has no such figure");
 }
 
-/// Contract: `beta` is drawn as the records have it, violet where the arm minimises the force error.
+/// The pieces of `beta`, in the order in which they are drawn.
+fn pieces_of_beta(figure: &Figure) -> Vec<(Rgb, Vec<[f64; 2]>)> {
+    let pieces = figure.panels[1].marks.iter().filter(|mark| mark.legend.starts_with("beta"));
+    let piece = |mark: &Mark| if let Shape::Line { points, .. } = &mark.shape { (mark.color, points.clone()) } else { panic!("no line") };
+    pieces.map(piece).collect()
+}
+
+/// Contract: `beta` is drawn as the records have it, piece by piece up to the start of the next one, in the colour of what the arm does: green where it
+/// is stiff, purple where it complies, violet where it minimises the force error.
 #[test]
 fn beta_has_the_colour_of_what_it_does() {
-    let mut parts = Parts::of(outcome());
-    let whole = arm_compliance(&parts.run());
-    let records: Vec<[f64; 2]> = parts.outcome.steps.iter().map(|step| [step.time_s, step.beta]).collect();
-    let switch = |figure: &Figure| figure.panels[1].clone();
-    assert_eq!(line(&switch(&whole), "beta"), records);
-    for step in &mut parts.outcome.steps {
-        step.beta = -step.beta;
+    for sign in [1.0, -1.0] {
+        let mut parts = Parts::of(outcome());
+        parts.outcome.steps.iter_mut().for_each(|step| step.beta *= sign);
+        let records: Vec<[f64; 2]> = parts.outcome.steps.iter().map(|step| [step.time_s, step.beta]).collect();
+        let pieces = pieces_of_beta(&arm_compliance(&parts.run()));
+        let colors: Vec<Rgb> = pieces.iter().map(|(color, _)| *color).collect();
+        assert_eq!(colors, [STIFF, if sign > 0.0 { meaning::COMPLIES } else { MINIMISES }, STIFF]);
+        let mut drawn = pieces[0].1.clone();
+        for (_, piece) in &pieces[1..] {
+            assert_eq!(drawn.pop(), piece.first().copied(), "a piece ends where the next one begins");
+            drawn.extend(piece);
+        }
+        assert_eq!(drawn, records);
     }
-    let figure = arm_compliance(&parts.run());
-    let [mark] = marks(&figure.panels[1], "beta, minimises the force")[..] else { panic!("one piece") };
-    assert!(mark.color == MINIMISES);
-    let drawn = line(&figure.panels[1], "beta, minimises the force");
-    assert!(drawn[..COMPLIES.len()].iter().all(|point| point[1] > 0.0) && drawn.len() == COMPLIES.len() + 1);
 }
 
 /// Contract: when the skill is over the arm holds its place: `beta` is drawn as none whatever the last state did, and the stretch is marked; where the
@@ -281,7 +290,9 @@ fn a_skill_that_is_over_does_nothing_about_forces() {
     }
     let figure = arm_compliance(&parts.run());
     let times: Vec<f64> = parts.outcome.steps[end..].iter().map(|step| step.time_s).collect();
-    assert!(times.iter().all(|time_s| line(&figure.panels[1], "beta").contains(&[*time_s, 0.0])), "{times:?}");
+    let pieces = pieces_of_beta(&figure);
+    let [.., (color, held)] = &pieces[..] else { panic!("nothing is drawn") };
+    assert!(*color == STIFF && times.iter().all(|time_s| held.contains(&[*time_s, 0.0])), "{times:?}, {held:?}");
     let over = [times[0], times[times.len() - 1]];
     let bands = |figure: &Figure| -> Vec<[f64; 2]> {
         let all = figure.panels.iter().flat_map(|panel| marks(panel, "the skill is over"));
