@@ -1,6 +1,6 @@
 //! `cpdmp figures`: draws the figures of a run again, from what its folder holds.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
@@ -69,16 +69,15 @@ fn of_folder(folder: &Path, global: &Global, terminal: &Terminal) -> Result<Vec<
 
 fn stored_arm(folder: &Path, experiment: &Experiment, beside: &[Variation], terminal: &Terminal) -> Result<Vec<Named>, Failure> {
     let steps = read(&folder.join(STEP_LOG))?;
-    let colors = meaning::beside(beside.iter().map(|one| &one.changes[..]));
-    let place = |one: &Variation| folder.join(BESIDE).join(format!("{}.parquet", one.name));
-    let places = beside.iter().zip(colors).map(|(one, (color, _))| (one.name.as_str(), color, place(one)));
-    let (there, missing): (Vec<_>, Vec<_>) = places.partition(|(.., place)| place.is_file());
-    // What could not be executed beside the run left nothing.
-    for (name, _, place) in missing {
-        terminal.note(&format!("the run left no {}: its figures are drawn without `{name}`\n", place.display()));
+    let places = beside.iter().map(|one| (one, folder.join(BESIDE).join(format!("{}.parquet", one.name))));
+    let (there, missing): (Vec<_>, Vec<_>) = places.partition(|(_, place)| place.is_file());
+    // What could not be executed beside the run left nothing, and has no colour.
+    for (one, place) in missing {
+        terminal.note(&format!("the run left no {}: its figures are drawn without `{}`\n", place.display(), one.name));
     }
-    let others: Vec<(&str, Rgb, Vec<StepRecord>)> =
-        there.into_iter().map(|(name, color, place)| Ok((name, color, read(&place)?))).collect::<Result<_, Failure>>()?;
+    let colors = meaning::beside(there.iter().map(|(one, _)| &one.changes[..]));
+    let with_steps = there.iter().zip(colors).map(|((one, place), (color, _))| Ok((one.name.as_str(), color, read(place)?)));
+    let others: Vec<(&str, Rgb, Vec<StepRecord>)> = with_steps.collect::<Result<_, Failure>>()?;
     let path = folder.join(SKILL);
     let skill = read_skill(&path)?;
     let place = folder.join(DEMONSTRATIONS);

@@ -13,6 +13,8 @@ use super::terminal::Terminal;
 use super::viewer::Open;
 #[cfg(feature = "rerun")]
 use super::watched::Watched;
+#[cfg(feature = "rerun")]
+use crate::report::summary;
 use crate::report::{Outcome, OutputError, RunFolder, text};
 use crate::scenario::Work;
 
@@ -64,7 +66,7 @@ fn run_one(ready: &Ready, target: &Path, arguments: &Run, global: &Global, termi
         run.report.deny_warnings();
     }
     #[cfg(feature = "rerun")]
-    let (progress, grown) = progress.end();
+    let (progress, grown) = progress.end(&summary(&run.report, &ready.scenario.description));
     if !run.wants_folder() {
         drop(progress);
         match terminal.format {

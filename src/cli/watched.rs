@@ -36,8 +36,9 @@ impl<'a> Watched<'a> {
         Self { shown, recordings, file }
     }
 
-    /// The run is over.
-    pub fn end(self) -> (Shown<'a>, Grown) {
+    /// The run is over, with a result in words.
+    pub fn end(self, result: &str) -> (Shown<'a>, Grown) {
+        self.recordings.iter().for_each(|recording| recording.ended(result));
         self.recordings.into_iter().for_each(|recording| _ = recording.finish(PATIENCE));
         (self.shown, Grown(self.file))
     }

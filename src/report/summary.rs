@@ -3,8 +3,8 @@
 use super::table::figure;
 use super::{CriterionReport, RunReport, verdict};
 
-/// How the run ended and what was asked of it, in plain text: scenario, seed and outcome; what the scenario shows, in its own words; then what is not
-/// plainly as it should be, each in a line of its own; then what is.
+/// How the run ended and what was asked of it, in plain text: scenario, seed and outcome; what the scenario shows, in its own words; then each criterion
+/// that does not hold, or need not, in a line of its own; then those that must hold and do.
 pub fn summary(report: &RunReport, description: &str) -> String {
     let mut lines = vec![format!("{}, seed {}: {}", report.scenario, report.seed, report.outcome.name().replace('_', " "))];
     lines.extend((!description.is_empty()).then(|| description.to_owned()));
@@ -21,8 +21,11 @@ pub fn summary(report: &RunReport, description: &str) -> String {
     lines.join("\n")
 }
 
-/// The measured value is told with its limit: `toy_in_basket fails, as expected (0.39 m, limit 0.09 m)`.
+/// What is measured is told with its limit: `toy_in_basket fails, as expected (0.39 m, limit 0.09 m)`.
 fn criterion(criterion: &CriterionReport) -> String {
+    if criterion.fails() {
+        return format!("{} FAILED: {}", criterion.name, verdict::reason(criterion));
+    }
     let numbers = criterion.value.zip(criterion.limit).map_or(String::new(), |(value, limit)| {
         let unit = if criterion.unit == "1" { String::new() } else { format!(" {}", criterion.unit) };
         format!(" ({}{unit}, limit {}{unit})", figure(value), figure(limit))

@@ -10,7 +10,7 @@ use super::source::Sources;
 use super::tree::Node;
 use crate::simulation::Variation;
 
-/// Most entries: so many colours are left that nobody takes for another one, on any page.
+/// Most entries: so many names fit into the titles and keys of a page.
 const MOST: usize = 2;
 
 /// What `tree`, which is `filled` for the run itself, varies beside it. Nothing is said of entries while something is wrong with the run.

@@ -57,7 +57,7 @@ pub struct StepRecord {
     pub bodies: Vec<Isometry3<f64>>,
     /// Poses of the scene's objects in the order of the experiment; of a cabinet, that of its door.
     pub objects: Vec<Isometry3<f64>>,
-    /// What touched since the record before: of each pair of parts where it was deepest. Not part of the archive of steps.
+    /// What touched since the record before: of each pair of parts where it was deepest, and the largest force. Not part of the archive of steps.
     pub touches: Vec<TouchPoint>,
     /// Kinetic energy of the robot and the objects (J).
     pub kinetic_energy_j: f64,

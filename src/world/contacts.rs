@@ -98,7 +98,7 @@ impl ContactBook {
             episode.max_force_n = episode.max_force_n.max(force);
             if let Some(gap) = gap {
                 episode.deepen(time_s, &gap);
-                self.recent.note(index, &gap);
+                self.recent.note(index, &gap, force);
             }
         }
     }
@@ -110,7 +110,7 @@ impl ContactBook {
         episode.first_time_s = episode.first_time_s.min(touch.time_s);
         episode.last_time_s = episode.last_time_s.max(touch.time_s);
         episode.deepen(touch.time_s, &touch.gap);
-        self.recent.note(index, &touch.gap);
+        self.recent.note(index, &touch.gap, f64::NAN);
     }
 
     /// Number of the episode of a pair, the robot's part first, then what moves. Two parts of equal rank are told in either order, and are one pair.

@@ -14,6 +14,8 @@ pub struct TouchPoint {
     pub distance_m: f64,
     /// The middle of the two deepest points (m, world).
     pub point: Point3<f64>,
+    /// The largest normal force since that record (N); NaN of a touch that the engine did not see because it began and ended within a step.
+    pub force_n: f64,
 }
 
 /// The touches since the last record; one of a pair.
@@ -32,17 +34,21 @@ impl RecentTouches {
         }
     }
 
-    /// Two parts touch.
-    pub fn note(&mut self, episode: usize, gap: &Gap) {
+    /// Two parts touch, with a normal force (N) if the engine tells it.
+    pub fn note(&mut self, episode: usize, gap: &Gap, force_n: f64) {
         if self.every_steps == 0 {
             return;
         }
-        let touch = TouchPoint { episode, distance_m: gap.distance_m, point: convert::point_back(gap.middle()) };
-        match self.points.iter_mut().find(|known| known.episode == episode) {
-            Some(known) if known.distance_m <= touch.distance_m => {}
-            Some(known) => *known = touch,
-            None => self.points.push(touch),
+        let mut touch = TouchPoint { episode, distance_m: gap.distance_m, point: convert::point_back(gap.middle()), force_n };
+        let Some(known) = self.points.iter_mut().find(|known| known.episode == episode) else {
+            self.points.push(touch);
+            return;
+        };
+        touch.force_n = touch.force_n.max(known.force_n);
+        if touch.distance_m < known.distance_m {
+            *known = touch;
         }
+        known.force_n = touch.force_n;
     }
 }
 
@@ -52,7 +58,7 @@ mod tests {
 
     use super::*;
 
-    /// Contract: a record tells of each pair the deepest touch since the record before, however short it was.
+    /// Contract: a record tells of each pair the deepest touch and the largest force since the record before, however short they were.
     #[test]
     fn a_record_sees_the_deepest_touch_since_the_one_before() {
         let mut recent = RecentTouches { every_steps: 10, ..RecentTouches::default() };
@@ -60,17 +66,18 @@ mod tests {
         for step in 1..=20 {
             recent.begin(step);
             match step {
-                3 => recent.note(0, &at(-0.001)),
-                4 => recent.note(0, &at(-0.004)),
-                5 => recent.note(0, &at(-0.002)),
-                14 => recent.note(1, &at(-0.003)),
+                3 => recent.note(0, &at(-0.001), f64::NAN),
+                4 => recent.note(0, &at(-0.004), 2.0),
+                5 => recent.note(0, &at(-0.002), 3.0),
+                14 => recent.note(1, &at(-0.003), 1.0),
                 _ => {}
             }
-            let seen: Vec<(usize, f64, f64)> = recent.points.iter().map(|touch| (touch.episode, touch.distance_m, touch.point.x)).collect();
+            let told = |touch: &TouchPoint| (touch.episode, touch.distance_m, touch.point.x, touch.force_n);
+            let seen: Vec<(usize, f64, f64, f64)> = recent.points.iter().map(told).collect();
             match step {
-                10 => assert_eq!(seen, [(0, -0.004, -0.002)]),
+                10 => assert_eq!(seen, [(0, -0.004, -0.002, 3.0)]),
                 11 => assert!(seen.is_empty(), "{seen:?}"),
-                20 => assert_eq!(seen, [(1, -0.003, -0.0015)]),
+                20 => assert_eq!(seen, [(1, -0.003, -0.0015, 1.0)]),
                 _ => {}
             }
         }

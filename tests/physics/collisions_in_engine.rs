@@ -1,5 +1,6 @@
 //! A block that stands in the way: what a simulated run tells about it, against brute force over every step.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use cpdmp::check::{Criterion, judge};
@@ -91,8 +92,8 @@ fn a_block_beside_the_way_is_passed_at_the_distance_of_brute_force() {
     }
 }
 
-/// Contract: a run that is recorded at every tenth step tells of each pair that touches the deepest of the ten touches that the same run tells when
-/// every step is recorded, and between them nothing else; the deepest of all is the point of the pair's contact.
+/// Contract: a run that is recorded at every tenth step tells of each pair that touches the deepest of the ten touches, and the largest of the ten
+/// forces, that the same run tells when every step is recorded, and nothing else; the deepest of all is the point of the pair's contact.
 #[test]
 fn a_record_tells_the_deepest_touch_of_each_pair_since_the_record_before() {
     let (_, every, _) = run(IN_THE_WAY);
@@ -102,13 +103,17 @@ fn a_record_tells_the_deepest_touch_of_each_pair_since_the_record_before() {
     let mut told = vec![(f64::INFINITY, nalgebra::Point3::origin()); tenth.collisions.len()];
     for record in &tenth.steps {
         let since = |step: u64| step + 10 > record.step && step <= record.step;
-        let mut deepest: Vec<_> = every.steps.iter().filter(|one| since(one.step)).flat_map(|one| one.touches.clone()).collect();
-        deepest.sort_by(|a, b| a.episode.cmp(&b.episode).then(a.distance_m.total_cmp(&b.distance_m)));
-        deepest.dedup_by_key(|touch| touch.episode);
-        let mut touches = record.touches.clone();
-        touches.sort_by_key(|touch| touch.episode);
-        assert_eq!(touches, deepest, "step {}", record.step);
-        for touch in touches {
+        let fine = || every.steps.iter().filter(|one| since(one.step)).flat_map(|one| &one.touches);
+        let pairs: BTreeSet<usize> = fine().map(|touch| touch.episode).collect();
+        assert_eq!(record.touches.iter().map(|touch| touch.episode).collect::<BTreeSet<_>>(), pairs, "step {}", record.step);
+        for touch in &record.touches {
+            let of_pair = || fine().filter(|one| one.episode == touch.episode);
+            let deepest = of_pair().min_by(|a, b| a.distance_m.total_cmp(&b.distance_m)).expect("it touches");
+            let force_n = of_pair().map(|one| one.force_n).fold(f64::NAN, f64::max);
+            assert_eq!((touch.distance_m, touch.point), (deepest.distance_m, deepest.point), "step {}", record.step);
+            assert!(touch.force_n == force_n || (touch.force_n.is_nan() && force_n.is_nan()), "step {}", record.step);
+        }
+        for touch in &record.touches {
             let deepest = &mut told[touch.episode];
             if touch.distance_m < deepest.0 {
                 *deepest = (touch.distance_m, touch.point);

@@ -4,12 +4,13 @@ use std::sync::LazyLock;
 
 use cpdmp::recording::entity_path::{self, Entity};
 use cpdmp::recording::write_recording;
-use cpdmp::simulation::RunOutcome;
+use cpdmp::simulation::{RunOutcome, StepRecord};
+use cpdmp::world::TouchPoint;
 use nalgebra::Point3;
 use rerun::Points3D;
 use rerun::log::Chunk;
 
-use super::read_rrd::{chunks, rows};
+use super::read_rrd::{chunks, experiment, rows, texts};
 use crate::physics::collisions_in_engine::{IN_THE_WAY, run};
 
 /// The run in which something touches that must not, and what its recording holds.
@@ -40,27 +41,68 @@ fn ns(time_s: f64) -> i64 {
     (time_s * 1e9).round() as i64
 }
 
-/// A block that was moved into the arm's way: every step shows what touches in it, red unless it may; every pair that must not touch is marked and
-/// named from its first touch to 0.8 s after its last.
+fn place(point: &Point3<f64>) -> [f32; 3] {
+    point.cast::<f32>().coords.into()
+}
+
+/// What the viewer shows at a time (ns): the last row until then.
+fn at<T: Clone>(rows: &[(i64, Vec<T>)], time: i64) -> Vec<T> {
+    rows.iter().rev().find(|row| row.0 <= time).map(|row| row.1.clone()).unwrap_or_default()
+}
+
+/// A block that was moved into the arm's way: every step shows what touches in it. At each of them a pair that must not touch is marked and named if it
+/// touches or did so in the last 0.8 s, and at no other.
 #[test]
 fn contacts_are_seen_as_long_as_they_last() {
     let (outcome, chunks) = &*TOUCHING;
-    let place = |point: &Point3<f64>| point.cast::<f32>().coords.into();
     let touches = outcome.steps.iter().map(|step| (ns(step.time_s), step.touches.iter().map(|touch| place(&touch.point)).collect()));
     let touches: Vec<(i64, Vec<[f32; 3]>)> = touches.collect();
     assert!(touches.iter().any(|(_, points)| points.len() > 1));
     assert_eq!(points(chunks, &entity_path::CONTACT.path()), touches);
 
-    let refused: Vec<_> = outcome.collisions.iter().filter(|contact| !contact.allowed).collect();
+    let refused: Vec<_> = outcome.collisions.iter().enumerate().filter(|(_, contact)| !contact.allowed).collect();
     assert!(!refused.is_empty());
-    for contact in refused {
-        let of = |entity: &Entity| entity.of(&[&contact.a, &contact.b]);
-        let times = [contact.first_time_s, contact.last_time_s + 0.8].map(ns);
-        let marks = points(chunks, &of(&entity_path::FORBIDDEN));
-        assert_eq!(marks, [(times[0], vec![place(&contact.deepest_point)]), (times[1], vec![])], "{contact:?}");
-        let said = labels(chunks, &of(&entity_path::FORBIDDEN_LABEL));
-        assert_eq!(said.iter().map(|(time, words)| (*time, words.len())).collect::<Vec<_>>(), [(times[0], 1), (times[1], 0)]);
+    for (episode, contact) in refused {
+        let [marks, said] = [&entity_path::FORBIDDEN, &entity_path::FORBIDDEN_LABEL].map(|entity| entity.of(&[&contact.a, &contact.b]));
+        let (marks, said) = (points(chunks, &marks), labels(chunks, &said));
+        let mut last_s = f64::NEG_INFINITY;
+        for step in &outcome.steps {
+            last_s = if step.touches.iter().any(|touch| touch.episode == episode) { step.time_s } else { last_s };
+            let shown = usize::from(step.time_s < last_s + 0.8 - 1e-9);
+            let now = ns(step.time_s);
+            assert_eq!((at(&marks, now).len(), at(&said, now).len()), (shown, shown), "{} s: {contact:?}", step.time_s);
+        }
         let words = format!("{} touches {}: up to {:.1} N", contact.a, contact.b, contact.max_force_n);
-        assert!(said[0].1[0].starts_with(&words), "{said:?}, not {words}");
+        assert!(said[0].1[0].starts_with(&words) && marks[0].1 == [place(&contact.deepest_point)], "{said:?}, {marks:?}, {contact:?}");
     }
+}
+
+/// Contract: a pair that touches again, elsewhere and not so hard, is marked there and told so; events tell each touch when it begins, and how hard it was
+/// when it is over.
+#[test]
+fn a_pair_that_touches_again_is_told_again() {
+    let mut outcome = TOUCHING.0.clone();
+    let episode = outcome.collisions.iter().position(|contact| !contact.allowed).expect("something touches");
+    let last = outcome.steps.last().expect("it ran").clone();
+    let point = Point3::new(0.1, 0.2, 0.3);
+    let again = TouchPoint { episode, distance_m: -1.2e-3, point, force_n: 3.5 };
+    for (later_s, touches) in [(3.0, vec![]), (4.0, vec![again]), (4.1, vec![again]), (6.0, vec![])] {
+        let step = last.step + (later_s * 1e3) as u64;
+        outcome.steps.push(StepRecord { step, time_s: last.time_s + later_s, touches, ..last.clone() });
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("recording.rrd");
+    write_recording(&path, &experiment(), &outcome, "").expect("the recording is written");
+    let chunks = chunks(&path);
+    let contact = &outcome.collisions[episode];
+    let [marks, said] = [&entity_path::FORBIDDEN, &entity_path::FORBIDDEN_LABEL].map(|entity| entity.of(&[&contact.a, &contact.b]));
+    let [from, until, gone] = [4.0, 4.1, 4.9].map(|later_s| ns(last.time_s + later_s));
+    let marks = points(&chunks, &marks);
+    assert_eq!(marks[marks.len() - 2..], [(from, vec![place(&point)]), (gone, vec![])]);
+    let words = format!("{} touches {}: up to 3.5 N, 1.2 mm deep", contact.a, contact.b);
+    assert_eq!(at(&labels(&chunks, &said), from), [words]);
+    let events = texts(&chunks, &entity_path::EVENTS, &rerun::TextLog::descriptor_text());
+    let told = |time: i64, what: &str| events.iter().any(|(at, text)| *at == time && text.ends_with(what));
+    assert!(told(from, &format!("{} touches {}", contact.a, contact.b)), "{events:?}");
+    assert!(told(until, &format!("{} no longer touches {}: up to 3.5 N, 1.2 mm deep", contact.a, contact.b)), "{events:?}");
 }

@@ -131,7 +131,7 @@ fn some_metres_are_written_where_they_are() {
 #[test]
 fn the_page_says_what_is_shown() {
     let two_sided = guide(&RECORDED.1);
-    assert!(two_sided.starts_with("**made_up, seed 0: passed**; "), "{two_sided}");
+    assert!(two_sided.starts_with("**made\\_up\\, seed 0\\: passed**; "), "{two_sided}");
     for (said, there) in
         [("each chain has a colour", true), ("wider obstacles", true), ("Each width", true), ("yellow ones", false), ("(4)", false)]
     {

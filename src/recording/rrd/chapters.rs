@@ -21,7 +21,7 @@ use super::{
     baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,
     replay_figure, robot_figure, scene_figure, scene_key, spread_figure, state_figure, task_states, teaching_figure,
 };
-use crate::learning::{ShapingKind, Skill};
+use crate::learning::ShapingKind;
 use crate::robot::{RobotModel, Shape};
 use crate::simulation::{Beside, Experiment, Help, LessonRecord, RunOutcome};
 use crate::world::support_height_m;
@@ -50,10 +50,10 @@ pub(super) struct Chapters<'a> {
 
 impl Chapters<'_> {
     /// The layout that the recording opens with; with a page for the lessons when there are some. Plots of what has been told before are
-    /// as high as that. `skill` is what was learned, if that is known.
-    pub fn layout(&self, (robot, skill): (&RobotModel, Option<&Skill>), taught: bool, play: PlayState) -> Result<(), Fault> {
+    /// as high as that. `skill` is the run with what was learned, if that is known.
+    pub fn layout(&self, robot: &RobotModel, skill: Option<&RunOutcome>, taught: bool, play: PlayState) -> Result<(), Fault> {
         let Experiment { learning, execution, .. } = self.experiment;
-        let betas = skill.map(|skill| task_states::betas(self.experiment, skill)).transpose()?;
+        let betas = skill.map(|outcome| self.drawn_betas(outcome)).transpose()?;
         let shown = Shown {
             camera: self.camera(robot),
             floor_m: self.floor_m(robot),
@@ -88,7 +88,6 @@ impl Chapters<'_> {
         let (recorder, camera) = (self.recorder(&[]), self.camera(&outcome.robot));
         recorder.always(WORLD.path(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
         guide::log_guide(&recorder, self.experiment, outcome)?;
-        scene_key::log_key(&recorder, self.told(outcome), &task_states::betas(self.experiment, &outcome.skill)?)?;
         replay_figure::log_replays(&recorder, &outcome.dataset, Arrow::seen_by(&camera))?;
         let dashes = self.dashes(outcome, &camera);
         paths::log_known(&recorder, outcome, (self.duration_s, &dashes))?;
@@ -110,9 +109,17 @@ impl Chapters<'_> {
         paths::log_executed(&recorder, records, &camera)?;
         state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, &camera))?;
         force_figure::log_forces(&recorder, records, self.told(outcome), &camera)?;
+        contact_figure::log_touches(&recorder, outcome, records, &camera)?;
         lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
+    }
+
+    /// What the colours in the scene mean; what touches is judged when the run is over.
+    pub fn key(&self, outcome: &RunOutcome, is_over: bool) -> Result<(), Fault> {
+        let (told, listens) = (self.told(outcome), self.experiment.execution.coupling.enabled);
+        let contacts = is_over.then(|| contact_figure::contacts_of(outcome));
+        scene_key::log_key(&self.recorder(&[]), told, (&self.drawn_betas(outcome)?, listens), contacts)
     }
 
     /// The result in words; none while the run goes on.
@@ -134,6 +141,11 @@ impl Chapters<'_> {
     fn dashes(&self, outcome: &RunOutcome, camera: &Camera) -> Dashes {
         let others = self.beside.len() + usize::from(self.compares());
         Dashes::along(&Path::new(&outcome.plan, outcome.plan.duration_s()), others, camera)
+    }
+
+    /// `beta` of each state that is drawn: none of a skill without states or without a place.
+    fn drawn_betas(&self, outcome: &RunOutcome) -> Result<Vec<f64>, Fault> {
+        Ok(task_states::states(self.experiment, outcome, self.duration_s)?.iter().map(|state| state.beta).collect())
     }
 
     /// Which forces there are.

@@ -1,37 +1,50 @@
 //! What touches, and what nearly does.
 
-use rerun::{EntityPath, LineStrips3D, Points3D};
+use nalgebra::Vector3;
+use rerun::{Color, EntityPath, LineStrips3D, Points3D};
 
 use super::camera::Camera;
 use super::convert;
 use super::entity_path::{CONTACT, FORBIDDEN, FORBIDDEN_LABEL, NEAREST, NEAREST_LABEL};
-use super::events::hard_and_deep;
 use super::palette;
 use super::recorder::{Fault, Recorder};
-use crate::simulation::RunOutcome;
+use super::scene_key::Contacts;
+use super::touch_stretches::{AFTER_S, Stretch, stretches};
+use crate::simulation::{RunOutcome, StepRecord};
 use crate::world::{Clearance, ContactEpisode, NEAR_M, TouchPoint, nearest_of_each};
 
-/// A smallest distance is shown from so long before it to so long after it, and a touch that must not be for so long after its end (s): most are
-/// over before they could be seen.
+/// A smallest distance is shown from so long before it to [`AFTER_S`] after it (s).
 const BEFORE_S: f64 = 0.4;
-const AFTER_S: f64 = 0.8;
 
 /// Radius of what touches, and of what must not, seen from far (m).
 const TOUCH_M: f64 = 0.006;
 const FAULT_M: f64 = 0.016;
 
-/// Logs contacts, and smallest distances that are near ones, when they happen, in words above those of the active state.
+/// Logs what must not touch, and smallest distances that are near ones, when they happen, in words above those of the active state.
 pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome, camera: &Camera) -> Result<(), Fault> {
-    log_touches(recorder, outcome, camera)?;
-    let near: Vec<_> = nearest_of_each(&outcome.clearances).into_iter().filter(|clearance| clearance.min_distance_m < NEAR_M).collect();
-    let faults: Vec<_> = outcome.collisions.iter().filter(|contact| !contact.allowed).collect();
+    let near = near(outcome);
+    let refused = outcome.collisions.iter().enumerate().filter(|(_, contact)| !contact.allowed);
+    let faults: Vec<(&ContactEpisode, Vec<Stretch>)> =
+        refused.map(|(index, contact)| (contact, stretches(&outcome.steps, index))).collect();
     // What must not touch comes first, and has the lowest lines.
-    let times = faults.iter().map(|contact| shown(contact)).chain(near.iter().map(|clearance| around(clearance)));
+    let times = faults.iter().flat_map(|(_, stretches)| stretches).map(shown).chain(near.iter().map(|clearance| around(clearance)));
     let mut lines = lines(&times.collect::<Vec<_>>()).into_iter();
-    for (contact, line) in faults.into_iter().zip(lines.by_ref()) {
-        log_fault(recorder, contact, line, camera)?;
+    for (contact, stretches) in &faults {
+        let places: Vec<_> = lines.by_ref().take(stretches.len()).map(|line| camera.words(line)).collect();
+        log_fault(recorder, contact, (stretches, &places), camera)?;
     }
     near.iter().zip(lines).try_for_each(|(clearance, line)| log_nearest(recorder, clearance, line, camera))
+}
+
+/// Which contacts and distances a run that is over has.
+pub(super) fn contacts_of(outcome: &RunOutcome) -> Contacts {
+    let any = |allowed: bool| outcome.collisions.iter().any(|contact| contact.allowed == allowed);
+    Contacts { allowed: any(true), refused: any(false), near: !near(outcome).is_empty() }
+}
+
+/// The smallest distances that are near ones.
+fn near(outcome: &RunOutcome) -> Vec<&Clearance> {
+    nearest_of_each(&outcome.clearances).into_iter().filter(|clearance| clearance.min_distance_m < NEAR_M).collect()
 }
 
 /// When a smallest distance is shown (s).
@@ -40,8 +53,8 @@ fn around(clearance: &Clearance) -> [f64; 2] {
 }
 
 /// When a touch that must not be is shown (s): as long as it lasts, and a little longer.
-fn shown(contact: &ContactEpisode) -> [f64; 2] {
-    [contact.first_time_s, contact.last_time_s + AFTER_S]
+fn shown(stretch: &Stretch) -> [f64; 2] {
+    [stretch.from_s, stretch.until_s + AFTER_S]
 }
 
 /// Logs a smallest distance: a line, and in words how near and what.
@@ -52,33 +65,43 @@ fn log_nearest(recorder: &Recorder, clearance: &Clearance, line: usize, camera: 
     let strip = [convert::vector(&clearance.point_a.coords), convert::vector(&clearance.point_b.coords)];
     recorder.at_times(entity, &times, LineStrips3D::update_fields().with_strips([strip]).columns([1, 0])?)?;
     let words = format!("{} {:.0} mm from {}", clearance.a, clearance.min_distance_m * 1e3, clearance.b);
-    log_words(recorder, NEAREST_LABEL.of(&[&clearance.b]), (words, palette::TOUCH), &times, camera.words(line))
+    let label = NEAREST_LABEL.of(&[&clearance.b]);
+    log_words(recorder, label, palette::TOUCH, &[(times, camera.words(line), words)])
 }
 
-/// Logs a touch that must not be: where it is deepest, and in words what touches and how hard.
-fn log_fault(recorder: &Recorder, contact: &ContactEpisode, line: usize, camera: &Camera) -> Result<(), Fault> {
-    let (names, times) = ([contact.a.as_str(), contact.b.as_str()], shown(contact));
+/// Logs the touches of two parts that must not: where each is deepest, and in words at its place what touches and how hard.
+fn log_fault(
+    recorder: &Recorder,
+    contact: &ContactEpisode,
+    (stretches, places): (&[Stretch], &[Vector3<f64>]),
+    camera: &Camera,
+) -> Result<(), Fault> {
+    let names = [contact.a.as_str(), contact.b.as_str()];
     let entity = FORBIDDEN.of(&names);
     let look = Points3D::update_fields().with_colors([palette::FAULT]).with_radii([(FAULT_M * camera.share) as f32]);
     recorder.always(entity.clone(), &look)?;
-    let point = Points3D::update_fields().with_positions([convert::vector(&contact.deepest_point.coords)]);
-    recorder.at_times(entity, &times, point.columns([1, 0])?)?;
-    let words = format!("{} touches {}{}", contact.a, contact.b, hard_and_deep(contact.max_force_n, contact.max_depth_m));
-    log_words(recorder, FORBIDDEN_LABEL.of(&names), (words, palette::light(palette::FAULT)), &times, camera.words(line))
+    let points = Points3D::update_fields().with_positions(stretches.iter().map(|stretch| convert::vector(&stretch.point.coords)));
+    let times: Vec<f64> = stretches.iter().flat_map(shown).collect();
+    recorder.at_times(entity, &times, points.columns(there_and_gone(stretches.len()))?)?;
+    let words = |stretch: &Stretch| format!("{} touches {}{}", contact.a, contact.b, stretch.hard_and_deep());
+    let said: Vec<_> = stretches.iter().zip(places).map(|(stretch, place)| (shown(stretch), *place, words(stretch))).collect();
+    log_words(recorder, FORBIDDEN_LABEL.of(&names), palette::light(palette::FAULT), &said)
 }
 
-/// Logs words beside the scene, from one time to another (s).
-fn log_words(
-    recorder: &Recorder,
-    entity: EntityPath,
-    (words, color): (String, rerun::Color),
-    times_s: &[f64; 2],
-    place: nalgebra::Vector3<f64>,
-) -> Result<(), Fault> {
+/// Logs words beside the scene, each from one time to another (s) at a place (m, world).
+fn log_words(recorder: &Recorder, entity: EntityPath, color: Color, said: &[([f64; 2], Vector3<f64>, String)]) -> Result<(), Fault> {
     let look = Points3D::update_fields().with_colors([color]).with_radii([0.0]).with_show_labels(true);
     recorder.always(entity.clone(), &look)?;
-    let words = Points3D::update_fields().with_positions([convert::vector(&place)]).with_labels([words]);
-    recorder.at_times(entity, times_s, words.columns([1, 0])?)
+    let words = Points3D::update_fields()
+        .with_positions(said.iter().map(|(_, place, _)| convert::vector(place)))
+        .with_labels(said.iter().map(|(.., words)| words.clone()));
+    let times: Vec<f64> = said.iter().flat_map(|(times, ..)| *times).collect();
+    recorder.at_times(entity, &times, words.columns(there_and_gone(said.len()))?)
+}
+
+/// Of so many things, one after the other, each there and then gone: how many are there.
+fn there_and_gone(things: usize) -> Vec<usize> {
+    (0..2 * things).map(|i| usize::from(i % 2 == 0)).collect()
 }
 
 /// Lines of words for what is shown from one time to another (s): the lowest ones above line 0 in which no two are shown at one time.
@@ -93,17 +116,16 @@ fn lines(shown: &[[f64; 2]]) -> Vec<usize> {
     lines
 }
 
-/// Logs what touches at each step, where it is deepest.
-fn log_touches(recorder: &Recorder, outcome: &RunOutcome, camera: &Camera) -> Result<(), Fault> {
+/// Logs what touches at each of some steps of a run, where it is deepest: red what must not, as far as that is told.
+pub(super) fn log_touches(recorder: &Recorder, outcome: &RunOutcome, records: &[StepRecord], camera: &Camera) -> Result<(), Fault> {
     recorder.always(CONTACT.path(), &Points3D::update_fields().with_radii([(TOUCH_M * camera.share) as f32]))?;
-    let times: Vec<f64> = outcome.steps.iter().map(|step| step.time_s).collect();
-    let all = || outcome.steps.iter().flat_map(|step| &step.touches);
-    let may = |touch: &TouchPoint| outcome.collisions.get(touch.episode).is_some_and(|contact| contact.allowed);
+    let all = || records.iter().flat_map(|step| &step.touches);
+    let must_not = |touch: &TouchPoint| outcome.collisions.get(touch.episode).is_some_and(|contact| !contact.allowed);
     let points = Points3D::update_fields()
         .with_positions(all().map(|touch| convert::vector(&touch.point.coords)))
-        .with_colors(all().map(|touch| if may(touch) { palette::TOUCH } else { palette::FAULT }));
-    let lengths: Vec<usize> = outcome.steps.iter().map(|step| step.touches.len()).collect();
-    recorder.at_times(CONTACT.path(), &times, points.columns(lengths)?)
+        .with_colors(all().map(|touch| if must_not(touch) { palette::FAULT } else { palette::TOUCH }));
+    let lengths: Vec<usize> = records.iter().map(|step| step.touches.len()).collect();
+    recorder.every_step(CONTACT.path(), points.columns(lengths)?)
 }
 
 #[cfg(test)]

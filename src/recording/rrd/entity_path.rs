@@ -114,7 +114,7 @@ entities! {
     NEAREST "world/nearest/{object}" "where the arm, or what it holds, comes nearest to an object, if within 5 cm: a line while it happens"
     NEAREST_LABEL "world/nearest/{object}/label" "how near, and what, in words beside the scene"
     CONTACT "world/contacts" "where parts touch, at each logged step: of each pair the deepest point since the step before; red what must not, white what may"
-    FORBIDDEN "world/forbidden/{part}/{other}" "where two parts that must not touch do so deepest, from their first touch to shortly after their last"
+    FORBIDDEN "world/forbidden/{part}/{other}" "where two parts that must not touch do so deepest, each time from its first moment to shortly after its last"
     FORBIDDEN_LABEL "world/forbidden/{part}/{other}/label" "which parts, how hard and how deep, in words beside the scene"
     TEACHING "teaching" "the lessons, on the timeline teaching_time: the scene in the robot's base frame (m)"
     TEACHING_BODY "teaching/robot/{body}" "pose of a robot body while a person leads the arm"

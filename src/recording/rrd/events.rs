@@ -5,8 +5,9 @@ use rerun::TextDocument;
 use super::entity_path::{EVENTS, EVENTS_SO_FAR};
 use super::lanes::{CLOSED, beta_in_words, holds};
 use super::recorder::{Fault, Recorder};
+use super::touch_stretches::{Stretch, hard_and_deep, stretches};
 use crate::simulation::{RunOutcome, StepRecord};
-use crate::world::{NEAR_M, nearest_of_each};
+use crate::world::{ContactEpisode, NEAR_M, nearest_of_each};
 
 /// Something worth a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +64,7 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
     let mut events = Vec::new();
     let note = |time_s: f64, text: String| Event { time_s, kind: Kind::Note, text };
     if let Some(first) = records.first() {
-        events.push(note(first.time_s, format!("the skill starts, {}", beta_in_words(first.beta))));
+        events.push(note(first.time_s, format!("the skill starts, {}", beta_in_words(first.acting_beta()))));
     }
     for pair in records.windows(2) {
         let (before, now) = (&pair[0], &pair[1]);
@@ -76,23 +77,31 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
         let text = format!("closest to {}: {} at {:.0} mm", clearance.b, clearance.a, clearance.min_distance_m * 1e3);
         events.push(note(clearance.time_s, text));
     }
-    for contact in outcome.collisions.iter().filter(|contact| !contact.allowed) {
-        let text = format!("{} touches {}{}", contact.a, contact.b, hard_and_deep(contact.max_force_n, contact.max_depth_m));
-        events.push(Event { time_s: contact.first_time_s, kind: Kind::Fault, text });
-    }
+    let refused = outcome.collisions.iter().enumerate().filter(|(_, contact)| !contact.allowed);
+    events.extend(refused.flat_map(|(index, contact)| touches(records, index, contact)));
     events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
     events
 }
 
-/// Depths below this (m) would be written as nothing.
-const LEAST_DEPTH_M: f64 = 0.05e-3;
-
-/// How hard something touches (N), and how deep (m), as far as it is known.
-pub(super) fn hard_and_deep(force_n: f64, depth_m: f64) -> String {
-    let force = (!force_n.is_nan()).then(|| format!("up to {force_n:.1} N"));
-    let depth = (depth_m >= LEAST_DEPTH_M).then(|| format!("{:.1} mm deep", depth_m * 1e3));
-    let known: Vec<String> = force.into_iter().chain(depth).collect();
-    if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) }
+/// What two parts that must not touch do: when they begin, and, when it is over, how hard and deep it was.
+fn touches(records: &[StepRecord], index: usize, contact: &ContactEpisode) -> Vec<Event> {
+    let (a, b) = (&contact.a, &contact.b);
+    let fault = |time_s: f64, text: String| Event { time_s, kind: Kind::Fault, text };
+    let all = stretches(records, index);
+    if all.is_empty() {
+        // It was after the last record.
+        let how = hard_and_deep(contact.max_force_n, contact.max_depth_m);
+        return vec![fault(contact.first_time_s, format!("{a} touches {b}{how}"))];
+    }
+    let end_s = records.last().map_or(0.0, |record| record.time_s);
+    let told = |stretch: &Stretch| match stretch.hard_and_deep() {
+        how if stretch.from_s == stretch.until_s => vec![fault(stretch.from_s, format!("{a} touches {b}{how}"))],
+        how => {
+            let over = if stretch.until_s < end_s { "no longer touches" } else { "still touches" };
+            vec![fault(stretch.from_s, format!("{a} touches {b}")), fault(stretch.until_s, format!("{a} {over} {b}{how}"))]
+        }
+    };
+    all.iter().flat_map(told).collect()
 }
 
 /// What differs between two neighbouring records.
@@ -123,17 +132,4 @@ fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
 fn peak_of_hold(records: &[StepRecord], step: u64) -> f64 {
     let until = records.iter().rev().skip_while(|record| record.step > step);
     until.take_while(|record| holds(record)).map(|record| record.human.force.norm()).fold(0.0, f64::max)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::hard_and_deep;
-
-    #[test]
-    fn a_depth_that_would_be_written_as_nothing_is_not_written() {
-        assert_eq!(hard_and_deep(401.3, 0.04e-3), ": up to 401.3 N");
-        assert_eq!(hard_and_deep(243.0, 2.4e-3), ": up to 243.0 N, 2.4 mm deep");
-        assert_eq!(hard_and_deep(f64::NAN, 0.06e-3), ": 0.1 mm deep");
-        assert_eq!(hard_and_deep(f64::NAN, 0.0), "");
-    }
 }

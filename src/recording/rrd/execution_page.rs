@@ -20,7 +20,7 @@ pub(super) fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizont
     let others = beside::for_title(shown.beside);
     // Only the baseline has no states.
     let paths = if shown.states.is_some() { PATHS } else { PATHS_OF_BASELINE };
-    let states = shown.states.as_ref().map(|states| format!("; {states}")).unwrap_or_default();
+    let states = shown.states.as_ref().filter(|states| !states.is_empty()).map(|states| format!("; {states}")).unwrap_or_default();
     let parts = [(paths, true), (&others, true), (BASELINE, shown.baseline), (&states, true)];
     let title: String = parts.into_iter().filter_map(|(part, told)| told.then_some(part)).collect();
     let growing = std::iter::once(EXECUTED_PATH.path()).chain(shown.beside.iter().map(|one| BESIDE_PATH.of(&[&one.name])));

@@ -30,7 +30,7 @@ pub(super) struct Shown<'a> {
     pub baseline: bool,
     /// What was executed beside the run.
     pub beside: &'a [Beside],
-    /// What colours the states of the skill have, for a title; none when it has no states.
+    /// What colours the states of the skill have, for a title; empty when none is drawn, none when it has none.
     pub states: Option<String>,
     /// Whether the person helps.
     pub person: bool,

@@ -52,6 +52,7 @@ enum News {
     Taught(Box<RobotModel>, Vec<LessonRecord>),
     Planned(Box<RunOutcome>),
     Stepped(Box<StepRecord>),
+    Ended(String),
 }
 
 impl LiveRecording {
@@ -121,6 +122,11 @@ impl LiveRecording {
         self.tell(News::Stepped(Box::new(record.clone())));
     }
 
+    /// The run has ended so, in words.
+    pub fn ended(&self, result: &str) {
+        self.tell(News::Ended(result.to_owned()));
+    }
+
     /// Gives the recording so long to catch up; whether it did. Otherwise it is left alone.
     pub fn finish(self, patience: Duration) -> bool {
         self.over.store(true, Ordering::Relaxed);
@@ -147,6 +153,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
         duration_s: 1.0,
         beside: &[],
     };
+    chapters.result(None)?;
     let mut planned: Option<Box<RunOutcome>> = None;
     let (mut opened, mut told, mut seen) = (false, 0, BTreeSet::new());
     for news in news {
@@ -155,7 +162,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
                 // What has been seen so far is where the work is, until all have been taught.
                 if seen.is_empty() {
                     chapters.look_at(Workplace::of_lessons(std::slice::from_ref(&lesson)));
-                    chapters.layout((&robot, None), true, PlayState::Following)?;
+                    chapters.layout(&robot, None, true, PlayState::Following)?;
                     opened = true;
                 }
                 chapters.lesson(&robot, (number, &lesson), seen.first().copied())?;
@@ -165,7 +172,7 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
             }
             News::Taught(robot, lessons) => {
                 chapters.look_at(Workplace::of_lessons(&lessons));
-                chapters.layout((&robot, None), true, PlayState::Following)?;
+                chapters.layout(&robot, None, true, PlayState::Following)?;
                 opened = true;
                 for (number, lesson) in lessons.iter().enumerate() {
                     if !seen.contains(&number) {
@@ -178,12 +185,13 @@ fn record(stream: RecordingStream, experiment: &Experiment, together: usize, new
                 chapters.duration_s = outcome.plan.duration_s();
                 if !opened {
                     chapters.look_at(Workplace::of_plan(&outcome).with_paths(&outcome));
-                    chapters.layout((&outcome.robot, Some(&outcome.skill)), false, PlayState::Following)?;
+                    chapters.layout(&outcome.robot, Some(&outcome), false, PlayState::Following)?;
                 }
                 chapters.skill(&outcome)?;
-                chapters.result(None)?;
+                chapters.key(&outcome, false)?;
                 planned = Some(outcome);
             }
+            News::Ended(result) => chapters.result(Some(&result))?,
             News::Stepped(record) => {
                 let Some(outcome) = &mut planned else { continue };
                 outcome.steps.push(*record);

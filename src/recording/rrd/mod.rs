@@ -48,6 +48,7 @@ mod state_figure;
 mod task_states;
 mod teaching_figure;
 mod then;
+mod touch_stretches;
 mod views;
 mod workplace;
 mod write;

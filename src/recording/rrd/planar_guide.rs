@@ -12,7 +12,7 @@ use crate::planar::{Case, PlanarOutcome, Transitions};
 /// Logs the page; `result` says how the experiment ended, its first line what it is called.
 pub(super) fn log_guide(recorder: &PlanarRecorder, outcome: &PlanarOutcome, result: &str) -> Result<(), Fault> {
     let (headline, answers) = result.split_once('\n').unwrap_or((result, ""));
-    let answers = answers.replace('\n', "  \n");
+    let (headline, answers) = (literal(headline), literal(answers).replace('\n', "  \n"));
     let mut page = format!("**{headline}**; {} demonstrations\n\n{answers}\n\n{}\n\n", outcome.demonstrations.len(), reading(outcome));
     page.push_str("## Clearances\n\n");
     page.extend(outcome.cases.iter().map(clearances));
@@ -21,6 +21,11 @@ pub(super) fn log_guide(recorder: &PlanarRecorder, outcome: &PlanarOutcome, resu
     let there = |entity: &&Entity| entity.pattern != GRAPH.pattern || outcome.transitions.is_some();
     page.extend(ENTITIES.iter().filter(there).map(|entity| format!("- `{}`: {}\n", entity.pattern, entity.meaning)));
     recorder.always(GUIDE.path(), &TextDocument::from_markdown(page))
+}
+
+/// Words that mean in Markdown what they say.
+fn literal(words: &str) -> String {
+    words.chars().flat_map(|c| c.is_ascii_punctuation().then_some('\\').into_iter().chain([c])).collect()
 }
 
 /// What every method makes of a situation, in a line.

@@ -1,4 +1,4 @@
-//! The stream into a recording file: everything is sent in columns, so the file is small and its content does not depend on any clock.
+//! The stream into a recording file: everything is sent in columns, so the file is small and what it tells does not depend on any clock.
 
 use std::time::Duration;
 
@@ -124,6 +124,9 @@ impl Recorder {
         times_s: &[f64],
         columns: impl IntoIterator<Item = SerializedComponentColumn>,
     ) -> Result<(), Fault> {
+        if times_s.is_empty() {
+            return Ok(());
+        }
         let times = [
             TimeColumn::new_duration_nanos(SIM_TIME.name, times_s.iter().map(|t| nanoseconds(*t))),
             TimeColumn::new_sequence(STEP.name, times_s.iter().map(|t| (t / self.step_s).round() as i64)),

@@ -8,6 +8,7 @@ use super::lanes::beta_in_words;
 use super::recorder::{Fault, Recorder};
 use crate::learning::cpdmp::{CouplingMode, CouplingSettings};
 use crate::simulation::Experiment;
+use crate::world::NEAR_M;
 
 /// Logs the result in words, or that there is none yet.
 pub(super) fn log_result(recorder: &Recorder, experiment: &Experiment, result: Option<&str>) -> Result<(), Fault> {
@@ -16,18 +17,41 @@ pub(super) fn log_result(recorder: &Recorder, experiment: &Experiment, result: O
     recorder.always(RESULT.path(), &TextDocument::new(words))
 }
 
-/// Logs the key of the scene; `betas` are those of its states.
-pub(super) fn log_key(recorder: &Recorder, told: Told, betas: &[f64]) -> Result<(), Fault> {
+/// Which contacts and distances a run that is over has to tell of.
+#[derive(Clone, Copy)]
+pub(super) struct Contacts {
+    /// Whether something touched that may.
+    pub allowed: bool,
+    /// Whether something touched that must not.
+    pub refused: bool,
+    /// Whether something came near.
+    pub near: bool,
+}
+
+/// Logs the key of the scene. `betas` are those of the states that are drawn, and `listens` tells whether the coupling is on. What touches is judged
+/// when the run is over; `None` before.
+pub(super) fn log_key(recorder: &Recorder, told: Told, (betas, listens): (&[f64], bool), contacts: Option<Contacts>) -> Result<(), Fault> {
     let mut lines = Vec::new();
     if !betas.is_empty() {
-        lines.push(format!("Ellipsoids, states: {}; the active one with thick lines", colors_of(betas).join(", ")));
+        let off = if listens { "" } else { ", but the coupling is off" };
+        lines.push(format!("Ellipsoids, states: {}{off}; the active one with thick lines", colors_of(betas).join(", ")));
     }
     let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("the person's vermilion", told.person)];
-    let arrows: Vec<&str> = arrows.into_iter().filter_map(|(color, there)| there.then_some(color)).collect();
-    lines.push(format!("Arrows, forces: {}", arrows.join(", ")));
-    lines.push("Points, contacts: red must not be, white may be".to_owned());
-    lines.push("White line: a smallest distance, while it happens".to_owned());
+    lines.push(format!("Arrows, forces: {}", those(&arrows)));
+    match contacts {
+        None => lines.push("White points: contacts; which of them must not be is told when the run is over".to_owned()),
+        Some(Contacts { allowed, refused, near }) => {
+            let points = those(&[("red must not be", refused), ("white may be", allowed)]);
+            lines.extend((allowed || refused).then(|| format!("Points, contacts: {points}")));
+            lines.extend(near.then(|| format!("White line: a smallest distance, if below {:.0} cm", NEAR_M * 1e2)));
+        }
+    }
     recorder.always(SCENE_KEY.path(), &TextDocument::new(lines.join("\n")))
+}
+
+/// Those that are there.
+fn those(all: &[(&str, bool)]) -> String {
+    all.iter().filter_map(|(what, there)| there.then_some(*what)).collect::<Vec<_>>().join(", ")
 }
 
 /// The colours of states, each with what it means.
@@ -37,15 +61,19 @@ fn colors_of(betas: &[f64]) -> Vec<&'static str> {
     kinds.into_iter().filter(|(kind, _)| there(*kind)).map(|(_, color)| color).collect()
 }
 
-/// The colours that states have, for a title: those of these betas; without any, those that they can have in this mode of the coupling. At its end
-/// a skill is stiff, whatever its states are.
+/// The colours that states have, for a title: those of these betas, nothing if none is drawn; where they are not known, those that they can have in
+/// this mode of the coupling. At its end a skill is stiff, whatever its states are.
 pub(super) fn colors_in_title(coupling: &CouplingSettings, betas: Option<&[f64]>) -> String {
+    if betas.is_some_and(<[f64]>::is_empty) {
+        return String::new();
+    }
     let can_be: &[f64] = match coupling.mode {
         CouplingMode::MinimiseForceError => &[1.0],
         CouplingMode::Comply => &[-1.0],
         CouplingMode::PerState(_) => &[-1.0, 1.0],
     };
-    colors_of(&[&[0.0], betas.unwrap_or(can_be)].concat()).join(", ")
+    let off = if coupling.enabled { "" } else { " (coupling off)" };
+    colors_of(&[&[0.0], betas.unwrap_or(can_be)].concat()).join(", ") + off
 }
 
 #[cfg(test)]

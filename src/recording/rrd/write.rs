@@ -55,10 +55,11 @@ fn record(experiment: &Experiment, outcome: &RunOutcome, result: &str) -> Result
     chapters.skill(outcome)?;
     chapters.execution(outcome, 0)?;
     chapters.end(outcome)?;
+    chapters.key(outcome, true)?;
     chapters.result(Some(result))?;
     stream.flush_blocking()?;
     let told = storage.take();
-    chapters.layout((&outcome.robot, Some(&outcome.skill)), !outcome.lessons.is_empty(), PlayState::Paused)?;
+    chapters.layout(&outcome.robot, Some(outcome), !outcome.lessons.is_empty(), PlayState::Paused)?;
     stream.flush_blocking()?;
     // The layout depends on what is told, and comes before it: a viewer arranges what it reads while it still reads.
     Ok(Encoder::encode(storage.take().into_iter().chain(told).map(Ok))?)
