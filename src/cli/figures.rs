@@ -1,6 +1,6 @@
 //! `cpdmp figures`: draws the figures of a run again, from what its folder holds.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Serialize;
 

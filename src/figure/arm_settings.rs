@@ -6,7 +6,8 @@ use super::chart::Figure;
 use super::mark::Mark;
 use crate::demonstration::Parameters;
 use crate::learning::{LearningError, motion_sequences};
-use crate::palette::{BLACK, BLUE, BROWN, GREY, MAGENTA, Rgb, VERMILION, VIOLET, YELLOW};
+use crate::palette::meaning::PLANNED;
+use crate::palette::{BLUE, BROWN, GREY, MAGENTA, Rgb, VERMILION, VIOLET, YELLOW};
 
 /// Colours of the settings, none of which is that of a plan, an execution or a kind of state elsewhere; of more settings than colours the first
 /// ones are drawn.
@@ -47,7 +48,7 @@ pub fn arm_settings(run: &ArmRun) -> Result<Option<Figure>, LearningError> {
             chart.marks.extend(outlines.map(|outline| Mark::faint_area("", color, outline)));
             chart.marks.push(Mark::line(&name_of(theta.iter().map(|(name, value)| (name, *value))), color, 1.4, curve.along(j)));
         }
-        chart.marks.push(Mark::dashes(&executed, BLACK, 1.4, asked.along(j)));
+        chart.marks.push(Mark::dashes(&executed, PLANNED, 2.0, asked.along(j)));
         chart
     };
     let panels = (0..motion.columns.len()).map(panel).collect();

@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use super::chart::{Axis, Chart, Figure};
 use super::mark::{Mark, Symbol};
 use crate::math::ellipse_outline;
-use crate::palette::{BLACK, GREY, Rgb, VERMILION};
+use crate::palette::{BLACK, GREY, Rgb, VERMILION, YELLOW};
 use crate::planar::{Case, Guidance, Method, Movement, Obstacle, PlanarOutcome, obstacles, rank};
 
 /// Width and height of a panel (pt).
@@ -76,9 +76,12 @@ fn goals(cases: &[&Case]) -> Vec<Mark> {
     if let [first, rest @ ..] = cases
         && rest.iter().all(|case| case.goal_m == first.goal_m)
     {
-        return vec![Mark::symbols("goal", BLACK, Symbol::Ring, 3.0, vec![first.goal_m])];
+        return vec![Mark::symbols("goal", BLACK, Symbol::Disc, 3.0, vec![first.goal_m])];
     }
-    vec![Mark::symbols("taught goal", BLACK, Symbol::Ring, 3.0, of(true)), Mark::symbols("new goal", BLACK, Symbol::Square, 2.5, of(false))]
+    vec![
+        Mark::symbols("taught goal", BLACK, Symbol::Disc, 3.0, of(true)),
+        Mark::symbols("new goal", YELLOW, Symbol::Square, 3.2, of(false)),
+    ]
 }
 
 /// A path past one of several obstacles has that one's colour, and its method's otherwise.

@@ -1,13 +1,13 @@
 //! What the colours mean, in figures and recordings alike.
 
-use super::{BLACK, BLUE, BROWN, GREEN, GREY, LIME, MAGENTA, MAROON, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, VIOLET, YELLOW};
+use super::{BLUE, BROWN, GREEN, GREY, LIME, MAGENTA, MAROON, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, VIOLET, YELLOW};
 
 /// What was taught.
 pub const TAUGHT: Rgb = GREY;
 /// What the skill generates for a setting without any force.
 pub const PLANNED: Rgb = SKY_BLUE;
-/// What the baseline generates for it.
-pub const BASELINE: Rgb = BLACK;
+/// What the baseline generates for it: as what it executes beside a run.
+pub const BASELINE: Rgb = LIME;
 /// What was executed.
 pub const EXECUTED: Rgb = ORANGE;
 /// A stiff state.
@@ -84,7 +84,7 @@ mod tests {
             found.sort_unstable();
             assert_eq!(found, ["brown", "lime", "magenta", "maroon"]);
         }
-        let others = [TAUGHT, PLANNED, BASELINE, EXECUTED, STIFF, COMPLIES, MINIMISES, MEASURED, EXPECTED, PERSON];
+        let others = [TAUGHT, PLANNED, EXECUTED, STIFF, COMPLIES, MINIMISES, MEASURED, EXPECTED, PERSON];
         assert!(BESIDE.iter().all(|(color, _)| !others.contains(color)));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use cpdmp::recording::entity_path::{self, Entity};
+use cpdmp::recording::entity_path;
 use cpdmp::recording::write_recording;
 use cpdmp::simulation::{RunOutcome, StepRecord};
 use cpdmp::world::TouchPoint;

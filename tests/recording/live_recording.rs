@@ -162,3 +162,22 @@ fn waits_so_far() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/thread-self/status").ok()?;
     status.lines().find_map(|line| line.strip_prefix("voluntary_ctxt_switches:"))?.trim().parse().ok()
 }
+
+/// Contract: as long as a run goes on its recording says so, and one that ends before its execution says how.
+#[test]
+fn a_recording_that_ends_early_says_how() {
+    let (folder, run) = (tempfile::tempdir().expect("a folder"), outcome());
+    let told = |result: Option<&str>| -> Vec<String> {
+        let path = folder.path().join("live.rrd");
+        let recording = LiveRecording::to_file(&path, &experiment());
+        recording.lesson(&run.robot, 0, &run.lessons[0]);
+        result.into_iter().for_each(|result| recording.ended(result));
+        assert!(recording.finish(PATIENCE), "the recording catches up");
+        let text = rerun::TextDocument::descriptor_text().component;
+        let of_result = chunks(&path).into_iter().filter(|chunk| *chunk.entity_path() == entity_path::RESULT.path());
+        of_result.flat_map(|chunk| chunk.iter_slices::<String>(text).map(|texts| texts[0].to_string()).collect::<Vec<_>>()).collect()
+    };
+    let not_over = format!("{}, seed {}: not over", experiment().name, experiment().seed);
+    assert_eq!(told(None), [not_over.clone()]);
+    assert_eq!(told(Some("time limit")), [not_over, "time limit".to_owned()]);
+}

@@ -35,7 +35,7 @@ fn log_beside(recorder: &Recorder, beside: &Beside, color: Color, (slot, dashes)
     recorder.every_step(path, dashes.growing(records, slot)?)?;
     for (axis, axis_name) in AXES.iter().enumerate() {
         let entity = BESIDE_MOTION.of(&[axis_name, name]);
-        recorder.always(entity.clone(), &style(name, color, 1.5))?;
+        recorder.always(entity.clone(), &style(name, color, 2.8))?;
         let values: Vec<f64> = records.iter().map(|record| record.tool.translation.vector[axis]).collect();
         recorder.every_step(entity, Scalars::new(values).columns_of_unit_batches()?)?;
     }

@@ -10,6 +10,7 @@ use super::axis_range::Ranges;
 use super::camera::Camera;
 use super::dashes::Dashes;
 use super::entity_path::WORLD;
+use super::floor::floor_m;
 use super::force_figure::Told;
 use super::layout::Shown;
 use super::paths::Path;
@@ -22,15 +23,12 @@ use super::{
     replay_figure, robot_figure, scene_figure, scene_key, spread_figure, state_figure, task_states, teaching_figure,
 };
 use crate::learning::ShapingKind;
-use crate::robot::{RobotModel, Shape};
+use crate::learning::cpdmp::spread_unit;
+use crate::robot::RobotModel;
 use crate::simulation::{Beside, Experiment, Help, LessonRecord, RunOutcome};
-use crate::world::support_height_m;
 
 /// The application that the viewer keeps the layout for.
 pub(super) const APPLICATION: &str = "cpdmp";
-
-/// Usual height of a table (m).
-const TABLE_HEIGHT_M: f64 = 0.75;
 
 /// One recording.
 pub(super) struct Chapters<'a> {
@@ -56,12 +54,13 @@ impl Chapters<'_> {
         let betas = skill.map(|outcome| self.drawn_betas(outcome)).transpose()?;
         let shown = Shown {
             camera: self.camera(robot),
-            floor_m: self.floor_m(robot),
+            floor_m: floor_m(self.experiment, robot),
             way_m: self.work.way,
             taught,
             baseline: self.compares(),
             beside: self.beside,
             states: (learning.shaping != ShapingKind::Lwr).then(|| scene_key::colors_in_title(&execution.coupling, betas.as_deref())),
+            spread_unit: skill.map_or("mm or mrad", |outcome| spread_unit(&outcome.skill.motion.columns)),
             person: execution.help != Help::None,
             scenario: &self.experiment.name,
         };
@@ -109,7 +108,7 @@ impl Chapters<'_> {
         paths::log_executed(&recorder, records, &camera)?;
         state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, &camera))?;
         force_figure::log_forces(&recorder, records, self.told(outcome), &camera)?;
-        contact_figure::log_touches(&recorder, outcome, records, &camera)?;
+        contact_figure::log_touches(&recorder, outcome, records)?;
         lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
@@ -173,26 +172,4 @@ impl Chapters<'_> {
         let Experiment { objects, parameters, .. } = self.experiment;
         *self.camera.get_or_init(|| Camera::on(&self.work, &Scene { objects, parameters, bodies: &robot.bodies }))
     }
-
-    /// Height of the floor (m): that of the lowest point of the robot's fixed body. A robot that shows no body down to there stands on the
-    /// floor on which a table of usual height does.
-    fn floor_m(&self, robot: &RobotModel) -> f64 {
-        let Experiment { objects, parameters, .. } = self.experiment;
-        let supports_m = objects.iter().map(|object| support_height_m(objects, object, parameters));
-        let support_m = supports_m.reduce(f64::min).unwrap_or(0.0);
-        let lowest_m = lowest_m(robot);
-        if lowest_m <= support_m { lowest_m } else { support_m - TABLE_HEIGHT_M }
-    }
-}
-
-/// Height of the lowest point of the robot's fixed body (m), at most the height of its base.
-fn lowest_m(robot: &RobotModel) -> f64 {
-    let reach = |shape: &Shape| match shape {
-        Shape::Box { half_extents } => half_extents.z,
-        Shape::Sphere { radius } => *radius,
-        Shape::Cylinder { half_length, .. } => *half_length,
-        Shape::Mesh { vertices, .. } => vertices.iter().map(|vertex| -vertex[2]).fold(0.0, f64::max),
-    };
-    let fixed = robot.bodies.first().map_or(&[][..], |body| &body.visuals);
-    fixed.iter().map(|visual| visual.body_from_geometry.translation.z - reach(&visual.shape)).fold(0.0, f64::min)
 }

@@ -1,7 +1,7 @@
 //! What touches, and what nearly does.
 
 use nalgebra::Vector3;
-use rerun::{Color, EntityPath, LineStrips3D, Points3D};
+use rerun::{Color, EntityPath, LineStrips3D, Points3D, Radius};
 
 use super::camera::Camera;
 use super::convert;
@@ -16,9 +16,12 @@ use crate::world::{Clearance, ContactEpisode, NEAR_M, TouchPoint, nearest_of_eac
 /// A smallest distance is shown from so long before it to [`AFTER_S`] after it (s).
 const BEFORE_S: f64 = 0.4;
 
-/// Radius of what touches, and of what must not, seen from far (m).
-const TOUCH_M: f64 = 0.006;
-const FAULT_M: f64 = 0.016;
+/// Radius of a smallest distance's line, seen from far (m).
+const NEAR_RADIUS_M: f64 = 0.005;
+
+/// Radii of points on the screen (pt), from wherever they are seen: of what touches, and of what must not where it is deepest.
+const TOUCH_PT: f32 = 3.0;
+const FAULT_PT: f32 = 7.0;
 
 /// Logs what must not touch, and smallest distances that are near ones, when they happen, in words above those of the active state.
 pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome, camera: &Camera) -> Result<(), Fault> {
@@ -31,7 +34,7 @@ pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome, camera: &C
     let mut lines = lines(&times.collect::<Vec<_>>()).into_iter();
     for (contact, stretches) in &faults {
         let places: Vec<_> = lines.by_ref().take(stretches.len()).map(|line| camera.words(line)).collect();
-        log_fault(recorder, contact, (stretches, &places), camera)?;
+        log_fault(recorder, contact, (stretches, &places))?;
     }
     near.iter().zip(lines).try_for_each(|(clearance, line)| log_nearest(recorder, clearance, line, camera))
 }
@@ -60,7 +63,7 @@ fn shown(stretch: &Stretch) -> [f64; 2] {
 /// Logs a smallest distance: a line, and in words how near and what.
 fn log_nearest(recorder: &Recorder, clearance: &Clearance, line: usize, camera: &Camera) -> Result<(), Fault> {
     let (entity, times) = (NEAREST.of(&[&clearance.b]), around(clearance));
-    let look = LineStrips3D::update_fields().with_colors([palette::TOUCH]).with_radii([0.003 * camera.share as f32]);
+    let look = LineStrips3D::update_fields().with_colors([palette::TOUCH]).with_radii([(NEAR_RADIUS_M * camera.share) as f32]);
     recorder.always(entity.clone(), &look)?;
     let strip = [convert::vector(&clearance.point_a.coords), convert::vector(&clearance.point_b.coords)];
     recorder.at_times(entity, &times, LineStrips3D::update_fields().with_strips([strip]).columns([1, 0])?)?;
@@ -70,22 +73,17 @@ fn log_nearest(recorder: &Recorder, clearance: &Clearance, line: usize, camera: 
 }
 
 /// Logs the touches of two parts that must not: where each is deepest, and in words at its place what touches and how hard.
-fn log_fault(
-    recorder: &Recorder,
-    contact: &ContactEpisode,
-    (stretches, places): (&[Stretch], &[Vector3<f64>]),
-    camera: &Camera,
-) -> Result<(), Fault> {
+fn log_fault(recorder: &Recorder, contact: &ContactEpisode, (stretches, places): (&[Stretch], &[Vector3<f64>])) -> Result<(), Fault> {
     let names = [contact.a.as_str(), contact.b.as_str()];
     let entity = FORBIDDEN.of(&names);
-    let look = Points3D::update_fields().with_colors([palette::FAULT]).with_radii([(FAULT_M * camera.share) as f32]);
+    let look = Points3D::update_fields().with_colors([palette::FAULT]).with_radii([Radius::new_ui_points(FAULT_PT)]);
     recorder.always(entity.clone(), &look)?;
     let points = Points3D::update_fields().with_positions(stretches.iter().map(|stretch| convert::vector(&stretch.point.coords)));
     let times: Vec<f64> = stretches.iter().flat_map(shown).collect();
     recorder.at_times(entity, &times, points.columns(there_and_gone(stretches.len()))?)?;
     let words = |stretch: &Stretch| format!("{} touches {}{}", contact.a, contact.b, stretch.hard_and_deep());
     let said: Vec<_> = stretches.iter().zip(places).map(|(stretch, place)| (shown(stretch), *place, words(stretch))).collect();
-    log_words(recorder, FORBIDDEN_LABEL.of(&names), palette::light(palette::FAULT), &said)
+    log_words(recorder, FORBIDDEN_LABEL.of(&names), palette::for_words(palette::FAULT), &said)
 }
 
 /// Logs words beside the scene, each from one time to another (s) at a place (m, world).
@@ -117,8 +115,8 @@ fn lines(shown: &[[f64; 2]]) -> Vec<usize> {
 }
 
 /// Logs what touches at each of some steps of a run, where it is deepest: red what must not, as far as that is told.
-pub(super) fn log_touches(recorder: &Recorder, outcome: &RunOutcome, records: &[StepRecord], camera: &Camera) -> Result<(), Fault> {
-    recorder.always(CONTACT.path(), &Points3D::update_fields().with_radii([(TOUCH_M * camera.share) as f32]))?;
+pub(super) fn log_touches(recorder: &Recorder, outcome: &RunOutcome, records: &[StepRecord]) -> Result<(), Fault> {
+    recorder.always(CONTACT.path(), &Points3D::update_fields().with_radii([Radius::new_ui_points(TOUCH_PT)]))?;
     let all = || records.iter().flat_map(|step| &step.touches);
     let must_not = |touch: &TouchPoint| outcome.collisions.get(touch.episode).is_some_and(|contact| !contact.allowed);
     let points = Points3D::update_fields()

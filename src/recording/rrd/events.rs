@@ -49,13 +49,18 @@ fn log_so_far(recorder: &Recorder, events: &[Event], after_s: Option<f64>) -> Re
     recorder.at_times(EVENTS_SO_FAR.path(), &times, pages.columns_of_unit_batches()?)
 }
 
-/// The events until a time (s), a line each, the last one first.
+/// So many events have room beside the scene.
+const SO_FAR: usize = 8;
+
+/// The last events until a time (s), a line each, the last one first.
 fn until(events: &[Event], time_s: f64) -> String {
     let line = |event: &Event| match event.kind {
         Kind::Note => format!("{:.2} s: {}", event.time_s, event.text),
         Kind::Fault => format!("ERROR {:.2} s: {}", event.time_s, event.text),
     };
-    events.iter().rev().filter(|event| event.time_s <= time_s).map(line).collect::<Vec<_>>().join("\n")
+    let past: Vec<&Event> = events.iter().rev().filter(|event| event.time_s <= time_s).collect();
+    let earlier = (past.len() > SO_FAR).then(|| "earlier: see All events".to_owned());
+    past.into_iter().take(SO_FAR).map(line).chain(earlier).collect::<Vec<_>>().join("\n")
 }
 
 /// The events of a run, in the order of time.
@@ -121,6 +126,7 @@ fn changes(before: &StepRecord, now: &StepRecord) -> Vec<String> {
     if before.acting_beta() != now.acting_beta() {
         texts.push(match beta_in_words(now.acting_beta()) {
             "complies" => format!("the arm complies from here (state {})", now.state),
+            "stiff" if now.is_over() => "the arm is stiff from here: the skill is over".to_owned(),
             "stiff" => format!("the arm is stiff from here (state {})", now.state),
             other => format!("the arm {other} from here (state {})", now.state),
         });

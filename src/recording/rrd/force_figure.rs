@@ -23,8 +23,8 @@ const ARM_RADIUS_M: f64 = 0.07;
 const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLANNED];
 
 /// Which colour is which force.
-const MEASURED_COLOR: &str = "blue: measured";
-const MODEL_COLORS: &str = "\n\nyellow: expected\n\npurple: unexpected";
+const MEASURED_COLOR: &str = "blue: measured, smoothed";
+const MODEL_COLORS: &str = "\n\nyellow: expected\n\nwhite: unexpected";
 const PERSON_COLOR: &str = "\n\nvermilion: person";
 
 /// Which forces there are besides the measured one.
@@ -55,7 +55,7 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], told: Told
         plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;
         if told.expected {
             plot.log(EXPECTED.of(&[axis]), "expected", palette::EXPECTED, |r| r.expected_force[i])?;
-            plot.log(EXTERNAL.of(&[axis]), "unexpected", palette::COMPLIES, |r| r.wrench[i] - r.expected_force[i])?;
+            plot.log(EXTERNAL.of(&[axis]), "unexpected", palette::TOUCH, |r| r.wrench[i] - r.expected_force[i])?;
         }
         if told.person {
             plot.log(PERSON.of(&[axis]), "person", palette::PERSON, |r| r.human.force[i])?;

@@ -36,7 +36,7 @@ each state, at two standard deviations.
 
 - grey: taught; blue: planned, what the skill generates for this setting without any force; orange: executed
 - in the scene the executed path is a line; all others are thick by turns, so that those in one place are all seen
-- black, where nothing was executed beside the run: what plain DMPs by locally weighted regression generate from the same demonstrations, when
+- lime, where nothing was executed beside the run: what plain DMPs by locally weighted regression generate from the same demonstrations, when
   the skill is told parameters: they are not";
 
 const MORE: &str = "\

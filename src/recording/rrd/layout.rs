@@ -32,6 +32,8 @@ pub(super) struct Shown<'a> {
     pub beside: &'a [Beside],
     /// What colours the states of the skill have, for a title; empty when none is drawn, none when it has none.
     pub states: Option<String>,
+    /// The unit of how far demonstrations disagree.
+    pub spread_unit: &'static str,
     /// Whether the person helps.
     pub person: bool,
     /// The scenario's name.

@@ -1,8 +1,6 @@
 //! A recording of a run while it happens, for a viewer or for the case that the run is killed. It runs beside the run on a thread of its own,
 //! which may fall behind, hang or fail: the run never waits for it, and what there is no room for is left out.
 
-use std::cell::OnceCell;
-use std::collections::BTreeSet;
 use std::net::{SocketAddr, TcpStream};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,15 +9,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use rerun::blueprint::components::PlayState;
 use rerun::sink::{FileSink, FileSinkOptions};
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
-use super::axis_range::Ranges;
-use super::chapters::{APPLICATION, Chapters};
+use super::chapters::APPLICATION;
+use super::growing::Growing;
 use super::recorder::Fault;
-use super::workplace::Workplace;
-use super::write::name;
 use crate::robot::RobotModel;
 use crate::simulation::{Experiment, LessonRecord, RunOutcome, StepRecord};
 
@@ -47,7 +42,7 @@ pub struct LiveRecording {
 
 /// What happens in a run.
 #[derive(Debug)]
-enum News {
+pub(super) enum News {
     Lesson(Box<RobotModel>, usize, LessonRecord),
     Taught(Box<RobotModel>, Vec<LessonRecord>),
     Planned(Box<RunOutcome>),
@@ -95,7 +90,7 @@ impl LiveRecording {
         thread::spawn(move || {
             // Whatever goes wrong, the run does not depend on it, and its recording is written when it is over.
             if let Ok(stream) = open(RecordingStreamBuilder::new(APPLICATION), &seen) {
-                _ = record(stream, &experiment, together, &told);
+                _ = Growing::record(stream, &experiment, together, &told);
             }
             _ = finished.send(());
         });
@@ -139,72 +134,4 @@ impl LiveRecording {
         // No room, or nobody there to listen: it is left out.
         _ = self.news.try_send(news);
     }
-}
-
-/// Records until the run is over, so many steps together.
-fn record(stream: RecordingStream, experiment: &Experiment, together: usize, news: &Receiver<News>) -> Result<(), Fault> {
-    stream.send_recording_name(format!("{} (live)", name(experiment)))?;
-    let mut chapters = Chapters {
-        stream,
-        ranges: Ranges::default(),
-        experiment,
-        work: Workplace::default(),
-        camera: OnceCell::new(),
-        duration_s: 1.0,
-        beside: &[],
-    };
-    chapters.result(None)?;
-    let mut planned: Option<Box<RunOutcome>> = None;
-    let (mut opened, mut told, mut seen) = (false, 0, BTreeSet::new());
-    for news in news {
-        match news {
-            News::Lesson(robot, number, lesson) => {
-                // What has been seen so far is where the work is, until all have been taught.
-                if seen.is_empty() {
-                    chapters.look_at(Workplace::of_lessons(std::slice::from_ref(&lesson)));
-                    chapters.layout(&robot, None, true, PlayState::Following)?;
-                    opened = true;
-                }
-                chapters.lesson(&robot, (number, &lesson), seen.first().copied())?;
-                // A viewer is told at once, and a file has it if the run is killed.
-                chapters.stream.flush_async()?;
-                seen.insert(number);
-            }
-            News::Taught(robot, lessons) => {
-                chapters.look_at(Workplace::of_lessons(&lessons));
-                chapters.layout(&robot, None, true, PlayState::Following)?;
-                opened = true;
-                for (number, lesson) in lessons.iter().enumerate() {
-                    if !seen.contains(&number) {
-                        chapters.lesson(&robot, (number, lesson), seen.first().copied())?;
-                        seen.insert(number);
-                    }
-                }
-            }
-            News::Planned(outcome) => {
-                chapters.duration_s = outcome.plan.duration_s();
-                if !opened {
-                    chapters.look_at(Workplace::of_plan(&outcome).with_paths(&outcome));
-                    chapters.layout(&outcome.robot, Some(&outcome), false, PlayState::Following)?;
-                }
-                chapters.skill(&outcome)?;
-                chapters.key(&outcome, false)?;
-                planned = Some(outcome);
-            }
-            News::Ended(result) => chapters.result(Some(&result))?,
-            News::Stepped(record) => {
-                let Some(outcome) = &mut planned else { continue };
-                outcome.steps.push(*record);
-                if outcome.steps.len() - told >= together {
-                    chapters.execution(outcome, told)?;
-                    told = outcome.steps.len();
-                }
-            }
-        }
-    }
-    if let Some(outcome) = planned.filter(|outcome| outcome.steps.len() > told) {
-        chapters.execution(&outcome, told)?;
-    }
-    chapters.stream.flush_blocking()?;
-    Ok(())
 }

@@ -12,7 +12,7 @@ pub(super) const fn rgb(color: Rgb) -> Color {
 /// What was taught.
 pub(super) const TAUGHT: Color = rgb(meaning::TAUGHT);
 /// The same in a scene: lighter, for objects are as bright as that.
-pub(super) const TAUGHT_PATH: Color = rgb(Rgb::new(208, 208, 208));
+pub(super) const TAUGHT_PATH: Color = rgb(Rgb::new(188, 188, 188));
 /// What was generated.
 pub(super) const PLANNED: Color = rgb(meaning::PLANNED);
 /// What was executed.
@@ -40,9 +40,19 @@ pub(super) const IDLE: Color = rgb(Rgb::new(70, 74, 82));
 /// Behind the scene.
 pub(super) const BACKGROUND: Color = rgb(Rgb::new(74, 82, 94));
 
-/// A lighter shade, for text on dark grey.
+/// A lighter shade, for lines on black.
 pub(super) fn light(color: Color) -> Color {
+    lighter(color, 2)
+}
+
+/// A much lighter one, for words on grey.
+pub(super) fn for_words(color: Color) -> Color {
+    lighter(color, 3)
+}
+
+/// A colour that is so many fifths of the way to white.
+fn lighter(color: Color, fifths: u8) -> Color {
     let [r, g, b, a] = color.to_array();
-    let lighter = |c: u8| c + (255 - c) / 5 * 3;
+    let lighter = |c: u8| c + (255 - c) / 5 * fifths;
     Color::from_unmultiplied_rgba(lighter(r), lighter(g), lighter(b), a)
 }

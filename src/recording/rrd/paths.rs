@@ -40,7 +40,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, 
         recorder.from(Since::Start, PLANNED_PATH.path(), &dashes.whole(&places, Slot::Planned).with_colors([palette::PLANNED]))?;
     }
     for (axis, name) in AXES.iter().enumerate() {
-        planned.log(recorder, &PLANNED_MOTION.of(&[name]), axis, &style("planned", palette::PLANNED, 2.0))?;
+        planned.log(recorder, &PLANNED_MOTION.of(&[name]), axis, &style("planned", palette::PLANNED, 4.0))?;
     }
     Ok(())
 }
@@ -58,7 +58,7 @@ pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord], camera: 
     recorder.always(EXECUTED_PATH.path(), &look)?;
     for (axis, name) in AXES.iter().enumerate() {
         let entity = EXECUTED_MOTION.of(&[name]);
-        recorder.always(entity.clone(), &style("executed", palette::EXECUTED, 2.5))?;
+        recorder.always(entity.clone(), &style("executed", palette::EXECUTED, 1.5))?;
         let values: Vec<f64> = tools.iter().map(|tool| tool.translation.vector[axis]).collect();
         recorder.every_step(entity, Scalars::new(values).columns_of_unit_batches()?)?;
     }

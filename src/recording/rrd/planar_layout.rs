@@ -50,7 +50,7 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
     }
     // A new reader reads first: what says how to is never behind something else.
     right.push(TextDocumentView::new("Result, and how to read").with_origin("/guide").into());
-    shares.push(1.1);
+    shares.push(1.6);
     let left = Grid::new(maps).with_grid_columns(columns as u32);
     let right = Vertical::new(right).with_row_shares(shares);
     let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.2, 1.0]))

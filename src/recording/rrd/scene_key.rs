@@ -37,7 +37,8 @@ pub(super) fn log_key(recorder: &Recorder, told: Told, (betas, listens): (&[f64]
         lines.push(format!("Ellipsoids, states: {}{off}; the active one with thick lines", colors_of(betas).join(", ")));
     }
     let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("the person's vermilion", told.person)];
-    lines.push(format!("Arrows, forces: {}", those(&arrows)));
+    lines.push("Lines: executed whole, others thick by turns".to_owned());
+    lines.push(format!("Arrows, forces, drawn beside the tool: {}", those(&arrows)));
     match contacts {
         None => lines.push("White points: contacts; which of them must not be is told when the run is over".to_owned()),
         Some(Contacts { allowed, refused, near }) => {
@@ -62,18 +63,18 @@ fn colors_of(betas: &[f64]) -> Vec<&'static str> {
 }
 
 /// The colours that states have, for a title: those of these betas, nothing if none is drawn; where they are not known, those that they can have in
-/// this mode of the coupling. At its end a skill is stiff, whatever its states are.
+/// this mode of the coupling.
 pub(super) fn colors_in_title(coupling: &CouplingSettings, betas: Option<&[f64]>) -> String {
     if betas.is_some_and(<[f64]>::is_empty) {
         return String::new();
     }
     let can_be: &[f64] = match coupling.mode {
         CouplingMode::MinimiseForceError => &[1.0],
-        CouplingMode::Comply => &[-1.0],
-        CouplingMode::PerState(_) => &[-1.0, 1.0],
+        CouplingMode::Comply => &[0.0, -1.0],
+        CouplingMode::PerState(_) => &[0.0, -1.0, 1.0],
     };
     let off = if coupling.enabled { "" } else { " (coupling off)" };
-    colors_of(&[&[0.0], betas.unwrap_or(can_be)].concat()).join(", ") + off
+    colors_of(betas.unwrap_or(can_be)).join(", ") + off
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ pub(super) fn log_spread(recorder: &Recorder, skill: &Skill, records: &[StepReco
     let ends: Vec<f64> = [records.first(), records.last()].into_iter().flatten().map(|record| record.time_s).collect();
     if compliance.threshold_m2.is_finite() {
         let sigma = vec![millimetres(compliance.threshold_m2); ends.len()];
-        recorder.always(THRESHOLD.path(), &style("sigma: above it states comply", palette::COMPLIES, 1.5))?;
+        recorder.always(THRESHOLD.path(), &style("sigma: above it states comply", palette::TOUCH, 1.5))?;
         recorder.at_times(THRESHOLD.path(), &ends, Scalars::new(sigma).columns_of_unit_batches()?)?;
     }
     Ok(())

@@ -67,7 +67,7 @@ pub(super) fn log_active(
     let labels = Points3D::update_fields()
         .with_positions(active.iter().map(|_| words))
         .with_labels(changes.iter().map(label))
-        .with_colors(changes.iter().map(|i| palette::light(beta_color(if now(*i).1 { 0.0 } else { states[now(*i).0].beta }))));
+        .with_colors(changes.iter().map(|i| palette::for_words(beta_color(if now(*i).1 { 0.0 } else { states[now(*i).0].beta }))));
     recorder.at_times(ACTIVE_LABEL.path(), &times, labels.columns_of_unit_batches()?)?;
     recorder.always(ACTIVE_LABEL.path(), &Points3D::update_fields().with_radii([0.0]).with_show_labels(true))?;
     let look = Ellipsoids3D::update_fields().with_line_radii([Radius::new_ui_points(2.0)]);

@@ -58,10 +58,10 @@ impl Then {
         Self { shapes: all.with(robot), tool, held, bulky }
     }
 
-    /// Which share of the tool's surroundings and of the ways is hidden from an eye (m, world), the ways as a whole as much as the tool.
+    /// Which share of the tool's surroundings or of the ways is hidden from an eye (m, world): of what is hidden more.
     pub fn hidden(&self, eye: &Vector3<f64>, ways: &[Point3<f64>]) -> f64 {
         let share = |points: &[Point3<f64>]| self.shapes.hidden(&Point3::from(*eye), points) as f64 / points.len().max(1) as f64;
-        (share(&self.tool) + share(ways)) / 2.0
+        share(&self.tool).max(share(ways))
     }
 }
 
