@@ -245,8 +245,10 @@ fn the_legend_of_taught_settings_is_whole() {
         }
         let executed = line(panel, "block_height_m = 0.235, executed");
         assert!(executed.len() > 2, "the setting of the execution is named");
-        let of_settings = panel.marks.iter().filter(|mark| mark.legend.contains("block_height_m"));
-        assert!(of_settings.clone().count() > 1 && of_settings.clone().all(|mark| !taken.contains(&mark.color)));
+        let named = panel.marks.iter().filter(|mark| mark.legend.contains("block_height_m"));
+        let (executed, of_settings): (Vec<&Mark>, Vec<&Mark>) = named.partition(|mark| mark.legend.ends_with(", executed"));
+        assert!(executed.iter().all(|mark| mark.color == meaning::PLANNED), "what the skill makes of it has one colour in every figure");
+        assert!(of_settings.len() > 1 && of_settings.iter().all(|mark| !taken.contains(&mark.color)));
     }
     let blind = Parts::of(outcome_of_the_baseline());
     assert!(arm_settings(&blind.run()).expect("drawn").is_none(), "what makes no difference between settings has no such figure");

@@ -178,6 +178,6 @@ fn a_recording_that_ends_early_says_how() {
         of_result.flat_map(|chunk| chunk.iter_slices::<String>(text).map(|texts| texts[0].to_string()).collect::<Vec<_>>()).collect()
     };
     let not_over = format!("{}, seed {}: not over", experiment().name, experiment().seed);
-    assert_eq!(told(None), [not_over.clone()]);
+    assert_eq!(told(None), std::slice::from_ref(&not_over));
     assert_eq!(told(Some("time limit")), [not_over, "time limit".to_owned()]);
 }

@@ -13,11 +13,11 @@ const LINEAR_N: f64 = 15.0;
 const LONGEST_M: f64 = 0.35;
 
 /// Half the thickness of an arrow (m).
-pub(super) const RADIUS_M: f64 = 0.008;
+pub(super) const RADIUS_M: f64 = 0.006;
 
 /// From the tool to the start of the first arrow that is felt there, and from one to the next (m): on the way of the tool they would hide it,
 /// and each other.
-const BESIDE_M: f64 = 0.034;
+const BESIDE_M: f64 = 0.036;
 
 /// From there towards the eye (m): before the fingers, which would hide it. Where it is seen does not change.
 const BEFORE_M: f64 = 0.09;

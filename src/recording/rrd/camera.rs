@@ -138,7 +138,7 @@ mod tests {
     fn a_wall_before_the_work_is_looked_around() {
         let free = seen(&work(Vec::new()), &[]);
         assert_eq!(view(&free), 0, "{free:?}");
-        let kind = ObjectKind::Table { size_m: Vector2::new(0.02, 0.8), top_height_m: 0.2, friction: Quantity::Value(0.5) };
+        let kind = ObjectKind::Table { size_m: Vector2::new(0.02, 0.8), top_height_m: 0.05, friction: Quantity::Value(0.5) };
         let before = seen(&work(Vec::new()), &[Object::new("table", Vector2::new(0.8, 0.3), kind)]);
         assert_eq!(before.eye, free.eye, "what is lower hides nothing");
         let around = seen(&work(Vec::new()), &[wall()]);
