@@ -33,7 +33,7 @@ pub(super) struct Contacts {
 pub(super) fn log_key(recorder: &Recorder, told: Told, (betas, listens): (&[f64], bool), contacts: Option<Contacts>) -> Result<(), Fault> {
     let mut lines = Vec::new();
     if !betas.is_empty() {
-        let off = if listens { "" } else { ", but the coupling is off" };
+        let off = if listens || betas.iter().all(|beta| *beta == 0.0) { "" } else { ", but the coupling is off" };
         lines.push(format!("Ellipsoids, states: {}{off}; the active one with thick lines", colors_of(betas).join(", ")));
     }
     let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("the person's vermilion", told.person)];
@@ -73,8 +73,9 @@ pub(super) fn colors_in_title(coupling: &CouplingSettings, betas: Option<&[f64]>
         CouplingMode::Comply => &[0.0, -1.0],
         CouplingMode::PerState(_) => &[0.0, -1.0, 1.0],
     };
-    let off = if coupling.enabled { "" } else { " (coupling off)" };
-    colors_of(betas.unwrap_or(can_be)).join(", ") + off
+    let betas = betas.unwrap_or(can_be);
+    let off = if coupling.enabled || betas.iter().all(|beta| *beta == 0.0) { "" } else { " (coupling off)" };
+    colors_of(betas).join(", ") + off
 }
 
 #[cfg(test)]
