@@ -77,7 +77,7 @@ fn switch(run: &ArmRun) -> Chart {
         let until = (from + piece.len() + 1).min(run.steps.len());
         let (legend, color) = match kind(&piece[0]) {
             Some(Ordering::Less) => ("beta, complies", COMPLIES),
-            Some(Ordering::Greater) => ("beta, minimises the force", MINIMISES),
+            Some(Ordering::Greater) => ("beta, minimises the force error", MINIMISES),
             _ => ("beta, stiff", STIFF),
         };
         chart.marks.push(Mark::line(legend, color, 2.2, over_time(&run.steps[from..until], StepRecord::acting_beta)));

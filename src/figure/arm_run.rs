@@ -154,7 +154,7 @@ fn coupled(mut states: Vec<TaskSpaceState>, question: &ExecutionSettings) -> Res
 pub(super) fn kind_of(beta: f64) -> (Rgb, &'static str) {
     match beta {
         beta if beta < 0.0 => (COMPLIES, "state that complies"),
-        beta if beta > 0.0 => (MINIMISES, "state that minimises the force"),
+        beta if beta > 0.0 => (MINIMISES, "state that minimises the force error"),
         _ => (STIFF, "stiff state"),
     }
 }

@@ -164,7 +164,7 @@ fn states_have_the_colour_of_what_the_coupling_lets_them_do() {
         of_states
     };
     let all = |states: &[(String, _)], name: &str, color| !states.is_empty() && states.iter().all(|one| one.0 == name && one.1 == color);
-    assert!(all(&legend(CouplingMode::MinimiseForceError), "state that minimises the force", MINIMISES));
+    assert!(all(&legend(CouplingMode::MinimiseForceError), "state that minimises the force error", MINIMISES));
     assert!(all(&legend(CouplingMode::PerState(vec![-1.0; 5])), "state that complies", meaning::COMPLIES));
     assert!(all(&legend(CouplingMode::PerState(vec![0.0; 5])), "stiff state", STIFF));
 }

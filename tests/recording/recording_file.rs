@@ -248,6 +248,6 @@ fn a_person_who_does_not_help_has_no_force() {
         let key: String =
             keys.flat_map(|chunk| chunk.iter_slices::<String>(text).map(|texts| texts[0].to_string()).collect::<Vec<_>>()).collect();
         assert_eq!(key.contains("vermilion: person"), helps, "{key}");
-        assert!(key.starts_with("blue: measured, smoothed\n\nyellow: expected\n\nwhite: unexpected"), "{key}");
+        assert!(key.starts_with("blue: measured, smoothed\nyellow: expected\nwhite: unexpected"), "{key}");
     }
 }

@@ -117,7 +117,7 @@ fn a_skill_that_is_over_minimises_nothing() {
     }
     let chunks = written(&run);
     let lane = texts(&chunks, &entity_path::COMPLIANCE_LANE, &rerun::StateChange::descriptor_state());
-    assert_eq!(lane, [(0, "minimises force".to_owned()), (112 * 50_000_000, "stiff".to_owned())]);
+    assert_eq!(lane, [(0, "minimises force error".to_owned()), (112 * 50_000_000, "stiff".to_owned())]);
     let events = texts(&chunks, &entity_path::EVENTS, &rerun::TextLog::descriptor_text());
     assert!(events.iter().any(|(_, text)| text == "5.60 s: the arm is stiff from here: the skill is over"), "{events:?}");
     let label = texts(&chunks, &entity_path::ACTIVE_LABEL, &rerun::Points3D::descriptor_labels());

@@ -10,19 +10,19 @@ use super::recorder::Fault;
 use crate::simulation::StepRecord;
 
 /// How long the part of a way is on which one path may be thick, and how much of it is (m), seen from far. The rest is the executed path's.
-const SLOT_M: f64 = 0.036;
-const DASH_M: f64 = 0.026;
+const SLOT_M: f64 = 0.064;
+const DASH_M: f64 = 0.05;
 
 /// Parts of the way that have an owner in any case: the executed path, the plan, what was taught.
 const OWN_SLOTS: usize = 3;
 
 /// Radii of dashes and of what is between them (m), seen from far.
-const DASH_RADIUS_M: f64 = 0.0055;
+const DASH_RADIUS_M: f64 = 0.0065;
 const BETWEEN_M: f64 = 0.0012;
 
 /// The same of taught paths, which are many. They are seen between their dashes only where they are so far from the plan (m), or they would
 /// hide all others there.
-const TAUGHT_RADIUS_M: f64 = 0.0034;
+const TAUGHT_RADIUS_M: f64 = 0.0042;
 const TAUGHT_BETWEEN_M: f64 = 0.0012;
 const APART_M: f64 = 0.012;
 

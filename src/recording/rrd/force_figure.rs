@@ -24,8 +24,8 @@ const AXIS_COLORS: [Color; 3] = [palette::EXECUTED, palette::STIFF, palette::PLA
 
 /// Which colour is which force.
 const MEASURED_COLOR: &str = "blue: measured, smoothed";
-const MODEL_COLORS: &str = "\n\nyellow: expected\n\nwhite: unexpected";
-const PERSON_COLOR: &str = "\n\nvermilion: person";
+const MODEL_COLORS: &str = "\nyellow: expected\nwhite: unexpected";
+const PERSON_COLOR: &str = "\nvermilion: person";
 
 /// Which forces there are besides the measured one.
 #[derive(Clone, Copy)]
@@ -49,7 +49,7 @@ pub(super) fn log_forces(recorder: &Recorder, records: &[StepRecord], told: Told
     arrows.log(&PERSON_ARROW, palette::PERSON, |r| (r.human.point + to_surface(&r.human.force), r.human.force))?;
     let colors = [(MEASURED_COLOR, true), (MODEL_COLORS, told.expected), (PERSON_COLOR, told.person)];
     let colors: String = colors.into_iter().filter_map(|(color, there)| there.then_some(color)).collect();
-    recorder.always(FORCE_COLORS.path(), &TextDocument::from_markdown(colors))?;
+    recorder.always(FORCE_COLORS.path(), &TextDocument::new(colors))?;
     let plot = Plot { recorder, records };
     for (i, axis) in AXES.iter().enumerate() {
         plot.log(WRENCH.of(&[axis]), "measured", palette::MEASURED, |r| r.wrench[i])?;

@@ -19,7 +19,7 @@ pub(super) const CLOSED: f64 = 0.5;
 pub(super) fn beta_in_words(beta: f64) -> &'static str {
     match beta {
         b if b < 0.0 => "complies",
-        b if b > 0.0 => "minimises force",
+        b if b > 0.0 => "minimises force error",
         _ => "stiff",
     }
 }

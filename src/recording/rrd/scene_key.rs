@@ -57,7 +57,7 @@ fn those(all: &[(&str, bool)]) -> String {
 
 /// The colours of states, each with what it means.
 fn colors_of(betas: &[f64]) -> Vec<&'static str> {
-    let kinds = [(0.0, "stiff green"), (-1.0, "complying purple"), (1.0, "minimising force violet")];
+    let kinds = [(0.0, "stiff green"), (-1.0, "complying purple"), (1.0, "minimising force error violet")];
     let there = |kind: f64| betas.iter().any(|beta| beta_in_words(*beta) == beta_in_words(kind));
     kinds.into_iter().filter(|(kind, _)| there(*kind)).map(|(_, color)| color).collect()
 }
@@ -86,6 +86,6 @@ mod tests {
     fn only_colours_that_are_there_are_named() {
         assert_eq!(colors_of(&[0.0, 0.0]), ["stiff green"]);
         assert_eq!(colors_of(&[0.0, -1.0, 0.0]), ["stiff green", "complying purple"]);
-        assert_eq!(colors_of(&[1.0]), ["minimising force violet"]);
+        assert_eq!(colors_of(&[1.0]), ["minimising force error violet"]);
     }
 }

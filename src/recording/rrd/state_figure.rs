@@ -56,18 +56,19 @@ pub(super) fn log_active(
     let times: Vec<f64> = changes.iter().map(|i| records[*i].time_s).collect();
     let active: Vec<usize> = changes.iter().map(|i| records[*i].state).collect();
     recorder.at_times(ACTIVE_STATE.path(), &times, ellipsoids(states, &active, camera).columns_of_unit_batches()?)?;
-    // What the skill says; a run without coupling does not listen.
-    let unheard = !experiment.execution.coupling.enabled;
-    let suffix = |beta: f64| if unheard && beta != 0.0 { ", but the coupling is off" } else { "" };
+    // What the arm does: a run without coupling does not listen to the skill.
+    let listens = experiment.execution.coupling.enabled;
+    let acting = |i: &usize| if now(*i).1 || !listens { 0.0 } else { states[now(*i).0].beta };
     let label = |i: &usize| match now(*i) {
-        (_, true) => format!("the skill is over: {}", beta_in_words(0.0)),
-        (state, false) => format!("state {state}: {}{}", beta_in_words(states[state].beta), suffix(states[state].beta)),
+        (_, true) => format!("the skill is over: {}", beta_in_words(acting(i))),
+        (state, false) if !listens && states[state].beta != 0.0 => format!("state {state}: stiff, as the coupling is off"),
+        (state, false) => format!("state {state}: {}", beta_in_words(acting(i))),
     };
     let words = convert::vector(&camera.words(0));
     let labels = Points3D::update_fields()
         .with_positions(active.iter().map(|_| words))
         .with_labels(changes.iter().map(label))
-        .with_colors(changes.iter().map(|i| palette::for_words(beta_color(if now(*i).1 { 0.0 } else { states[now(*i).0].beta }))));
+        .with_colors(changes.iter().map(|i| palette::for_words(beta_color(acting(i)))));
     recorder.at_times(ACTIVE_LABEL.path(), &times, labels.columns_of_unit_batches()?)?;
     recorder.always(ACTIVE_LABEL.path(), &Points3D::update_fields().with_radii([0.0]).with_show_labels(true))?;
     let look = Ellipsoids3D::update_fields().with_line_radii([Radius::new_ui_points(2.0)]);
