@@ -26,7 +26,7 @@ pub(super) fn of_arm(run: &ArmRun) -> Result<Vec<Named>, LearningError> {
 pub(super) fn arm_run<'a>(experiment: &'a Experiment, left: &'a RunOutcome) -> Result<ArmRun<'a>, LearningError> {
     let learned = (&left.skill, &left.dataset, &experiment.learning);
     let run = ArmRun::new(title(&experiment.name, experiment.seed), &left.steps, learned, experiment.question())?;
-    let colors = meaning::beside(left.beside.iter().map(|one| &one.changes[..]));
+    let colors = meaning::beside(left.beside.iter().map(|one| one.difference));
     let others = left.beside.iter().zip(colors).map(|(one, (color, _))| (one.name.as_str(), color, &one.outcome.steps[..])).collect();
     Ok(run.in_scene(&experiment.objects, &experiment.parameters).beside(others))
 }

@@ -75,7 +75,7 @@ fn stored_arm(folder: &Path, experiment: &Experiment, beside: &[Variation], term
     for (one, place) in missing {
         terminal.note(&format!("the run left no {}: its figures are drawn without `{}`\n", place.display(), one.name));
     }
-    let colors = meaning::beside(there.iter().map(|(one, _)| &one.changes[..]));
+    let colors = meaning::beside(there.iter().map(|(one, _)| one.difference(experiment)));
     let with_steps = there.iter().zip(colors).map(|((one, place), (color, _))| Ok((one.name.as_str(), color, read(place)?)));
     let others: Vec<(&str, Rgb, Vec<StepRecord>)> = with_steps.collect::<Result<_, Failure>>()?;
     let path = folder.join(SKILL);

@@ -16,7 +16,7 @@ impl ArmRun<'_> {
 
     /// The stretch after the end of the skill, in which the arm holds its place; none where the records end with the skill.
     fn over(&self) -> Option<Mark> {
-        let first = self.steps.iter().find(|step| step.time_fraction >= 1.0)?;
+        let first = self.steps.iter().find(|step| step.is_over())?;
         let ends = [first.time_s, self.steps.last()?.time_s];
         (ends[0] < ends[1]).then(|| Mark::band("the skill is over", GREY, 0.18, ends))
     }

@@ -30,57 +30,63 @@ pub type Named = (Rgb, &'static str);
 /// is left.
 const BESIDE: [Named; 4] = [(BROWN, "brown"), (MAROON, "maroon"), (LIME, "lime"), (MAGENTA, "magenta")];
 
-/// Changes to a run's scenario, as `KEY=VALUE`, that have a colour of their own: another method to learn, and an arm that yields to nothing.
-const OWN: [(&str, &str, Named); 2] = [("learning.shaping", "lwr", BESIDE[2]), ("coupling.enabled", "false", BESIDE[3])];
+/// What makes an execution beside a run another one than the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Difference {
+    /// The baseline's method to learn.
+    Method,
+    /// An arm that yields to nothing.
+    Coupling,
+    /// Anything else.
+    Other,
+}
 
-/// The colours of what was executed beside a run, by what each of them changes in its scenario: what is the same has the same colour in every
-/// scenario. Up to four are told apart, which is more than stand beside any run.
+impl Difference {
+    /// Those that are made again and again have a colour of their own.
+    fn own_color(self) -> Option<Named> {
+        match self {
+            Self::Method => Some(BESIDE[2]),
+            Self::Coupling => Some(BESIDE[3]),
+            Self::Other => None,
+        }
+    }
+}
+
+/// The colours of what was executed beside a run, by what makes each of them another: what is the same has the same colour in every scenario. Up to
+/// four are told apart, which is more than stand beside any run.
 #[must_use]
-pub fn beside<'a>(changes: impl IntoIterator<Item = &'a [String]>) -> Vec<Named> {
+pub fn beside(differences: impl IntoIterator<Item = Difference>) -> Vec<Named> {
     let mut colors: Vec<Option<Named>> = Vec::new();
-    for changes in changes {
-        let own = own_color(changes).filter(|own| !colors.contains(&Some(*own)));
+    for difference in differences {
+        let own = difference.own_color().filter(|own| !colors.contains(&Some(*own)));
         colors.push(own);
     }
     let mut free: Vec<Named> = BESIDE.into_iter().filter(|color| !colors.contains(&Some(*color))).rev().collect();
     colors.into_iter().map(|own| own.or_else(|| free.pop()).unwrap_or(BESIDE[0])).collect()
 }
 
-/// The colour that one of some changes has for its own.
-fn own_color(changes: &[String]) -> Option<Named> {
-    let says = |change: &String, key: &str, value: &str| {
-        let (said, to) = change.split_once('=').unwrap_or_default();
-        said.trim() == key && to.trim().trim_matches(['"', '\'']) == value
-    };
-    OWN.into_iter().find(|(key, value, _)| changes.iter().any(|change| says(change, key, value))).map(|(.., color)| color)
-}
-
 #[cfg(test)]
 mod tests {
+    use super::Difference::{Coupling, Method, Other};
     use super::*;
 
-    /// The names of the colours of what changes so.
-    fn names(changes: &[&[&str]]) -> Vec<&'static str> {
-        let changes: Vec<Vec<String>> = changes.iter().map(|one| one.iter().map(|change| (*change).to_owned()).collect()).collect();
-        beside(changes.iter().map(Vec::as_slice)).into_iter().map(|(_, name)| name).collect()
+    fn names(differences: &[Difference]) -> Vec<&'static str> {
+        beside(differences.iter().copied()).into_iter().map(|(_, name)| name).collect()
     }
 
-    /// Contract: the baseline's method and an arm without coupling have their colours wherever they stand, however their change is written.
+    /// Contract: the baseline's method and an arm without coupling have their colours wherever they stand.
     #[test]
     fn what_is_the_same_has_the_same_colour() {
-        let (lwr, stiff) = (["learning.lwr_ends=regression", "learning.shaping = \"lwr\""], ["coupling.enabled=false"]);
-        assert_eq!(names(&[&lwr, &stiff]), ["lime", "magenta"]);
-        assert_eq!(names(&[&stiff, &["learning.theta_f=[]"], &lwr]), ["magenta", "brown", "lime"]);
-        assert_eq!(names(&[&["seed=1"], &stiff]), ["brown", "magenta"]);
-        assert_eq!(names(&[&["coupling.enabled=true"]]), ["brown"]);
+        assert_eq!(names(&[Method, Coupling]), ["lime", "magenta"]);
+        assert_eq!(names(&[Coupling, Other, Method]), ["magenta", "brown", "lime"]);
+        assert_eq!(names(&[Other, Coupling]), ["brown", "magenta"]);
     }
 
     /// Contract: no two of up to four have one colour, and none has that of anything else.
     #[test]
     fn what_differs_has_different_colours() {
-        let stiff: &[&str] = &["coupling.enabled=false"];
-        for changes in [[&["seed=1"][..]; 4], [stiff; 4], [stiff, &["seed=1"], stiff, &["seed=2"]]] {
-            let mut found = names(&changes);
+        for differences in [[Other; 4], [Coupling; 4], [Coupling, Other, Coupling, Other]] {
+            let mut found = names(&differences);
             found.sort_unstable();
             assert_eq!(found, ["brown", "lime", "magenta", "maroon"]);
         }

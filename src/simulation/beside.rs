@@ -7,7 +7,8 @@ use super::run::{History, perform};
 use super::setup::Setup;
 use super::{Experiment, Progress, RunOutcome, SimulationError, TraceSettings};
 use crate::demonstration::{Dataset, Demonstration};
-use crate::learning::{self, Learned};
+use crate::learning::{self, Learned, ShapingKind};
+use crate::palette::meaning::Difference;
 
 /// Another way to learn or to execute what was taught in a run.
 #[derive(Clone, Debug)]
@@ -20,6 +21,22 @@ pub struct Variation {
     pub experiment: Experiment,
 }
 
+impl Variation {
+    /// What makes it another than the run of an experiment, however its changes are written.
+    #[must_use]
+    pub fn difference(&self, run: &Experiment) -> Difference {
+        let is_baseline = |experiment: &Experiment| experiment.learning.shaping == ShapingKind::Lwr;
+        let listens = |experiment: &Experiment| experiment.execution.coupling.enabled;
+        if is_baseline(&self.experiment) && !is_baseline(run) {
+            Difference::Method
+        } else if listens(run) && !listens(&self.experiment) {
+            Difference::Coupling
+        } else {
+            Difference::Other
+        }
+    }
+}
+
 /// What came of a variation.
 #[derive(Clone, Debug)]
 pub struct Beside {
@@ -27,6 +44,8 @@ pub struct Beside {
     pub name: String,
     /// What it changes, as `KEY=VALUE` each.
     pub changes: Vec<String>,
+    /// What makes it another than the run.
+    pub difference: Difference,
     /// Its execution, with the skill behind it; lessons are those of the run.
     pub outcome: RunOutcome,
 }
@@ -61,7 +80,8 @@ fn execute_one(
         learning::learn_while(&dataset, &setup.experiment.learning, setup.experiment.seed, &|| progress.may_go_on())?
     };
     let outcome = perform(&setup, &dataset, &learned, History::default(), progress)?;
-    Ok(Beside { name: variation.name.clone(), changes: variation.changes.clone(), outcome })
+    let difference = variation.difference(experiment);
+    Ok(Beside { name: variation.name.clone(), changes: variation.changes.clone(), difference, outcome })
 }
 
 /// The demonstrations of a run with the parameters that another experiment tells its skill.

@@ -355,7 +355,7 @@ fn every_figure_can_be_drawn_also_for_a_skill_without_states() {
 #[test]
 fn what_was_executed_beside_the_run_is_drawn_in_a_colour_of_its_own() {
     let parts = Parts::of(compared());
-    let colors = meaning::beside(parts.outcome.beside.iter().map(|one| &one.changes[..]));
+    let colors = meaning::beside(parts.outcome.beside.iter().map(|one| one.difference));
     let others = parts.outcome.beside.iter().zip(&colors).map(|(one, (color, _))| (one.name.as_str(), *color, &one.outcome.steps[..]));
     let run = parts.run().beside(others.collect());
     let (motion, forces) = (arm_motion(&run), arm_forces(&run));

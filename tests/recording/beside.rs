@@ -1,7 +1,11 @@
 //! Contract: what was executed beside a run is in its recording under its own name, as its records have it, and in the layout's titles.
 
+use std::path::Path;
+
+use cpdmp::palette::meaning::Difference;
 use cpdmp::recording::entity_path::{self, ENTITIES, Entity};
 use cpdmp::recording::write_recording;
+use cpdmp::scenario::{LoadOptions, Scenario, Work};
 use cpdmp::simulation::{Beside, RunOutcome, StepRecord};
 use nalgebra::Vector3;
 use rerun::log::Chunk;
@@ -21,7 +25,7 @@ pub fn compared() -> RunOutcome {
             record.tool.translation.vector += Vector3::new(away_m, 2.0 * away_m, 3.0 * away_m);
             record.wrench *= 1.0 + away_m;
         }
-        Beside { name: name.into(), changes: vec!["coupling.enabled=false".into()], outcome: other }
+        Beside { name: name.into(), changes: vec!["coupling.enabled=false".into()], difference: Difference::Coupling, outcome: other }
     };
     let beside = vec![elsewhere("uncoupled", run.steps.len(), 0.1), elsewhere("blind", 20, 0.2)];
     RunOutcome { beside, ..run }
@@ -92,4 +96,18 @@ fn the_plan_of_the_baseline_gives_way_to_executed_runs() {
 fn entities_are_those_that_are_documented() {
     let chunks: Vec<Chunk> = [written(&compared()), written(&outcome()), TOUCHING.1.clone()].concat();
     assert_documented(&chunks, &ENTITIES.iter().map(|entity| entity.pattern).collect::<Vec<_>>());
+}
+
+/// Contract: what makes a variation another than its run is what it does otherwise, not how that is written.
+#[test]
+fn a_variation_differs_in_what_it_does() {
+    let differences = |name: &str| -> Vec<Difference> {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
+        let scenario = Scenario::load(&path, &LoadOptions::default()).unwrap_or_else(|faults| panic!("{faults}"));
+        let Work::Arm(experiment) = &scenario.work else { panic!("no arm") };
+        scenario.beside.iter().map(|one| one.difference(experiment)).collect()
+    };
+    assert_eq!(differences("pick_and_place.toml"), [Difference::Method, Difference::Coupling]);
+    assert_eq!(differences("push_object.toml"), [Difference::Coupling, Difference::Other]);
+    assert_eq!(differences("cabinet_door.toml"), [Difference::Method], "its own coupling is off");
 }

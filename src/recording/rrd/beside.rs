@@ -17,7 +17,7 @@ pub(super) const RUN: &str = "executed";
 
 /// What was executed beside a run, each with its colour and the colour's name.
 fn named(beside: &[Beside]) -> impl Iterator<Item = (&Beside, meaning::Named)> {
-    beside.iter().zip(meaning::beside(beside.iter().map(|one| &one.changes[..])))
+    beside.iter().zip(meaning::beside(beside.iter().map(|one| one.difference)))
 }
 
 /// Logs everything that was executed beside the run: where its tool went, in dashes, and the forces.
