@@ -1,6 +1,6 @@
 //! What the colours mean, in figures and recordings alike.
 
-use super::{BLUE, BROWN, GREEN, GREY, LIME, MAGENTA, MAROON, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION, VIOLET, YELLOW};
+use super::{BLUE, BROWN, GREEN, GREY, LIME, MAGENTA, MAROON, ORANGE, PINK, Rgb, SKY_BLUE, VERMILION, VIOLET, YELLOW};
 
 /// What was taught.
 pub const TAUGHT: Rgb = GREY;
@@ -13,7 +13,7 @@ pub const EXECUTED: Rgb = ORANGE;
 /// A stiff state.
 pub const STIFF: Rgb = GREEN;
 /// A state that complies.
-pub const COMPLIES: Rgb = PURPLE;
+pub const COMPLIES: Rgb = PINK;
 /// A state that minimises the force error.
 pub const MINIMISES: Rgb = VIOLET;
 /// A force as it is measured.

@@ -4,5 +4,5 @@ pub mod meaning;
 mod okabe_ito;
 mod rgb;
 
-pub use okabe_ito::{BLACK, BLUE, BROWN, GREEN, GREY, LIME, MAGENTA, MAROON, ORANGE, PURPLE, SKY_BLUE, VERMILION, VIOLET, YELLOW};
+pub use okabe_ito::{BLACK, BLUE, BROWN, GREEN, GREY, LIME, MAGENTA, MAROON, ORANGE, PINK, SKY_BLUE, VERMILION, VIOLET, YELLOW};
 pub use rgb::Rgb;

@@ -18,8 +18,8 @@ pub const YELLOW: Rgb = Rgb::new(240, 228, 66);
 pub const BLUE: Rgb = Rgb::new(0, 114, 178);
 /// Vermilion.
 pub const VERMILION: Rgb = Rgb::new(213, 94, 0);
-/// Reddish purple.
-pub const PURPLE: Rgb = Rgb::new(204, 121, 167);
+/// Pink: the palette's authors call it reddish purple.
+pub const PINK: Rgb = Rgb::new(204, 121, 167);
 /// Magenta.
 pub const MAGENTA: Rgb = Rgb::new(221, 52, 151);
 /// Violet, between blue and reddish purple, darker than the one and bluer than the other.

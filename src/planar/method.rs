@@ -1,9 +1,9 @@
 //! Who moves, what it is told, and on which side it passes.
 
-use crate::palette::{BLACK, BLUE, GREEN, ORANGE, PURPLE, Rgb, SKY_BLUE, VERMILION};
+use crate::palette::{BLACK, BLUE, GREEN, ORANGE, PINK, Rgb, SKY_BLUE, VERMILION};
 
 /// Colours of chains, in order; with more chains they come again.
-const CHAIN_COLORS: [Rgb; 6] = [ORANGE, SKY_BLUE, GREEN, PURPLE, VERMILION, BLUE];
+const CHAIN_COLORS: [Rgb; 6] = [ORANGE, SKY_BLUE, GREEN, PINK, VERMILION, BLUE];
 
 /// The colour of a chain, wherever it is drawn.
 #[must_use]
@@ -56,7 +56,7 @@ impl Method {
     pub fn look(self) -> (Rgb, &'static str) {
         match self {
             Self::Cpdmp => (BLUE, "blue"),
-            Self::CpdmpProduct => (PURPLE, "purple"),
+            Self::CpdmpProduct => (PINK, "pink"),
             Self::CpdmpChain => (GREEN, "green"),
             Self::LwrDmp => (ORANGE, "orange"),
             Self::TpGmm => (BLACK, "black"),

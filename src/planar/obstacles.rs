@@ -1,11 +1,11 @@
 //! Which obstacle is which: where there are several, each has a colour of its own, and so has what passes it.
 
 use super::{Case, Ellipse};
-use crate::palette::{BLUE, BROWN, GREEN, ORANGE, PURPLE, Rgb, SKY_BLUE};
+use crate::palette::{BLUE, BROWN, GREEN, ORANGE, PINK, Rgb, SKY_BLUE};
 
 /// Colours of obstacles, in order; with more obstacles they come again. Vermilion is left to collisions.
 const COLORS: [(Rgb, &str); 6] =
-    [(BLUE, "blue"), (GREEN, "green"), (ORANGE, "orange"), (PURPLE, "purple"), (SKY_BLUE, "sky blue"), (BROWN, "brown")];
+    [(BLUE, "blue"), (GREEN, "green"), (ORANGE, "orange"), (PINK, "pink"), (SKY_BLUE, "sky blue"), (BROWN, "brown")];
 
 /// An obstacle of an experiment.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -262,7 +262,7 @@ fn pieces_of_beta(figure: &Figure) -> Vec<(Rgb, Vec<[f64; 2]>)> {
 }
 
 /// Contract: `beta` is drawn as the records have it, piece by piece up to the start of the next one, in the colour of what the arm does: green where it
-/// is stiff, purple where it complies, violet where it minimises the force error.
+/// is stiff, pink where it complies, violet where it minimises the force error.
 #[test]
 fn beta_has_the_colour_of_what_it_does() {
     for sign in [1.0, -1.0] {

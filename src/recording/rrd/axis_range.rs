@@ -12,8 +12,8 @@ pub(super) const LEAST_STEP: f64 = 0.22;
 pub(super) const LEAST_STEP_OF_LOW: f64 = 0.4;
 pub(super) const LEAST_STEP_OF_HIGH: f64 = 0.18;
 
-/// A second number is not worth a range that is more than so many times what is drawn: that would be a line in half a plot.
-const MOST_EXTENDED: f64 = 2.0;
+/// A second number is not worth a range that is more than so many times what is drawn: that would be a line in a third of a plot.
+const MOST_EXTENDED: f64 = 2.6;
 
 /// Free space above and below, as a share of the range: a number at the end of what is drawn is whole.
 const SPACE: f64 = 0.1;
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn everything_is_inside_and_takes_half_of_the_plot() {
+    fn everything_is_inside_and_takes_a_good_part_of_the_plot() {
         for range in RANGES {
             for least_step in [LEAST_STEP, LEAST_STEP_OF_LOW, LEAST_STEP_OF_HIGH] {
                 let [low, high] = shown(range, least_step);

@@ -6,7 +6,7 @@ use rerun::{Color, LineStrips3D, Scalars, TextDocument};
 use super::dashes::{Dashes, Slot};
 use super::entity_path::{BESIDE_COLORS, BESIDE_ERROR, BESIDE_FORCE, BESIDE_MOTION, BESIDE_PATH, ERROR_COLORS, Entity};
 use super::palette;
-use super::paths::{AXES, style};
+use super::paths::{AXES, BESIDE_WIDTHS, style};
 use super::recorder::{Fault, Recorder};
 use crate::learning::Skill;
 use crate::palette::meaning;
@@ -23,19 +23,22 @@ fn named(beside: &[Beside]) -> impl Iterator<Item = (&Beside, meaning::Named)> {
 /// Logs everything that was executed beside the run: where its tool went, in dashes, and the forces.
 pub(super) fn log_all(beside: &[Beside], dashes: &Dashes, recorder: impl Fn(&[StepRecord]) -> Recorder) -> Result<(), Fault> {
     for (number, (one, (color, _))) in named(beside).enumerate() {
-        log_beside(&recorder(&one.outcome.steps), one, palette::rgb(color), (Slot::Other(number), dashes))?;
+        // Plots draw them by their names, each narrower than the one below.
+        let below = beside.iter().filter(|other| other.name < one.name).count();
+        let look = (palette::rgb(color), BESIDE_WIDTHS[below.min(BESIDE_WIDTHS.len() - 1)]);
+        log_beside(&recorder(&one.outcome.steps), one, look, (Slot::Other(number), dashes))?;
     }
     Ok(())
 }
 
-fn log_beside(recorder: &Recorder, beside: &Beside, color: Color, (slot, dashes): (Slot, &Dashes)) -> Result<(), Fault> {
+fn log_beside(recorder: &Recorder, beside: &Beside, (color, width): (Color, f32), (slot, dashes): (Slot, &Dashes)) -> Result<(), Fault> {
     let (name, records) = (beside.name.as_str(), &beside.outcome.steps);
     let path = BESIDE_PATH.of(&[name]);
     recorder.always(path.clone(), &LineStrips3D::update_fields().with_colors([color]))?;
     recorder.every_step(path, dashes.growing(records, slot)?)?;
     for (axis, axis_name) in AXES.iter().enumerate() {
         let entity = BESIDE_MOTION.of(&[axis_name, name]);
-        recorder.always(entity.clone(), &style(name, color, 2.8))?;
+        recorder.always(entity.clone(), &style(name, color, width))?;
         let values: Vec<f64> = records.iter().map(|record| record.tool.translation.vector[axis]).collect();
         recorder.every_step(entity, Scalars::new(values).columns_of_unit_batches()?)?;
     }
@@ -86,6 +89,11 @@ pub(super) fn in_words(beside: &[Beside]) -> String {
         format!("- {color}: `{}`, executed beside the run, with {}\n", one.name, changes.join(", "))
     };
     named(beside).map(line).collect()
+}
+
+/// One of them in a line of the key: what it changes.
+pub(super) fn in_short(one: &Beside) -> String {
+    format!("{}: {}", one.name, one.changes.join(", "))
 }
 
 /// The same for a title.

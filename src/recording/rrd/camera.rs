@@ -35,12 +35,12 @@ const CLEARLY: f64 = 0.05;
 const DISTANCE_M: f64 = 1.34;
 
 /// No camera is nearer (m).
-const NEAREST_M: f64 = 0.38;
+const NEAREST_M: f64 = 0.28;
 
 /// From the middle of the picture to words, as shares of the distance from the eye: to the side and downwards, so that a long line ends at the
 /// picture's edge. Then from one line of words to the next above it, and how far long ones reach to either side.
 const WORDS: [f64; 2] = [0.385, 0.46];
-const LINE: f64 = 0.055;
+const LINE: f64 = 0.048;
 const HALF_WORDS: f64 = 0.3;
 
 /// A camera: where it is, and what it looks at (m, world).

@@ -20,7 +20,7 @@ use super::then::Scene;
 use super::workplace::Workplace;
 use super::{
     baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,
-    replay_figure, robot_figure, scene_figure, scene_key, spread_figure, state_figure, task_states, teaching_figure,
+    replay_figure, robot_figure, scene_figure, scene_key, see_through, spread_figure, state_figure, task_states, teaching_figure,
 };
 use crate::learning::ShapingKind;
 use crate::learning::cpdmp::spread_unit;
@@ -104,7 +104,8 @@ impl Chapters<'_> {
         let recorder = if from == 0 { self.recorder(records) } else { self.recorder(records).continues() };
         let camera = self.camera(&outcome.robot);
         robot_figure::log_robot(&recorder, &outcome.robot, records)?;
-        scene_figure::log_objects(&recorder, self.experiment, records)?;
+        let see_through = if from == 0 { self.see_through(&camera, &outcome.robot) } else { Vec::new() };
+        scene_figure::log_objects(&recorder, self.experiment, records, &see_through)?;
         paths::log_executed(&recorder, records, &camera)?;
         state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, &camera))?;
         force_figure::log_forces(&recorder, records, self.told(outcome), &camera)?;
@@ -118,7 +119,7 @@ impl Chapters<'_> {
     pub fn key(&self, outcome: &RunOutcome, is_over: bool) -> Result<(), Fault> {
         let (told, listens) = (self.told(outcome), self.experiment.execution.coupling.enabled);
         let contacts = is_over.then(|| contact_figure::contacts_of(outcome));
-        scene_key::log_key(&self.recorder(&[]), told, (&self.drawn_betas(outcome)?, listens), contacts)
+        scene_key::log_key(&self.recorder(&[]), told, (&self.drawn_betas(outcome)?, listens), (contacts, self.beside))
     }
 
     /// The result in words; none while the run goes on.
@@ -165,6 +166,12 @@ impl Chapters<'_> {
     pub fn look_at(&mut self, work: Workplace) {
         self.work = work;
         self.camera = OnceCell::new();
+    }
+
+    /// The objects, by their index, that would hide much of the work from a camera.
+    fn see_through(&self, camera: &Camera, robot: &RobotModel) -> Vec<usize> {
+        let Experiment { objects, parameters, .. } = self.experiment;
+        see_through::before(camera, &self.work, &Scene { objects, parameters, bodies: &robot.bodies })
     }
 
     /// What the work is looked at with; to find it takes a while, so it is done once.

@@ -9,20 +9,21 @@ use super::paths::{Path, pieces};
 use super::recorder::Fault;
 use crate::simulation::StepRecord;
 
-/// How long the part of a way is on which one path may be thick, and how much of it is (m), seen from far. The rest is the executed path's.
-const SLOT_M: f64 = 0.064;
-const DASH_M: f64 = 0.05;
+/// How long the part of a way is on which one path may be thick, and how much of it is (m), seen from far. The rest is the executed path's, and so
+/// is every second part.
+const SLOT_M: f64 = 0.052;
+const DASH_M: f64 = 0.044;
 
-/// Parts of the way that have an owner in any case: the executed path, the plan, what was taught.
-const OWN_SLOTS: usize = 3;
+/// Paths beside the executed one that are there in any case: the plan, what was taught.
+const OWN: usize = 2;
 
 /// Radii of dashes and of what is between them (m), seen from far.
-const DASH_RADIUS_M: f64 = 0.0065;
-const BETWEEN_M: f64 = 0.0012;
+const DASH_RADIUS_M: f64 = 0.0075;
+const BETWEEN_M: f64 = 0.0018;
 
 /// The same of taught paths, which are many. They are seen between their dashes only where they are so far from the plan (m), or they would
 /// hide all others there.
-const TAUGHT_RADIUS_M: f64 = 0.0042;
+const TAUGHT_RADIUS_M: f64 = 0.0048;
 const TAUGHT_BETWEEN_M: f64 = 0.0012;
 const APART_M: f64 = 0.012;
 
@@ -71,7 +72,7 @@ impl Dashes {
             (share, place, way_m)
         };
         let plan = plan.places().unwrap_or_default().into_iter().map(&mut told).collect();
-        Self { share: camera.share, slots: OWN_SLOTS + others, plan }
+        Self { share: camera.share, slots: 2 * (OWN + others), plan }
     }
 
     /// A path that is known as a whole, from its places (m, world) at shares of the time: a thin line with thick dashes.
@@ -113,12 +114,11 @@ impl Dashes {
         let apart = near.map(|(_, planned, way_m)| ((planned - place).norm(), *way_m));
         let Some((apart_m, way_m)) = apart.min_by(|(a, _), (b, _)| a.total_cmp(b)) else { return Look::Between };
         let number = match slot {
-            // Number 0 is the executed path's own, which has no dashes.
-            Slot::Planned => 1,
-            Slot::Taught => 2,
-            Slot::Other(number) => OWN_SLOTS + number,
+            Slot::Planned => 0,
+            Slot::Taught => 1,
+            Slot::Other(number) => OWN + number,
         };
-        let within_m = way_m / self.share - number as f64 * SLOT_M;
+        let within_m = way_m / self.share - (2 * number) as f64 * SLOT_M;
         match within_m.rem_euclid(self.slots as f64 * SLOT_M) < DASH_M {
             true => Look::Dash,
             false if slot == Slot::Taught && apart_m < APART_M * self.share => Look::Nothing,

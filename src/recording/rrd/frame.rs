@@ -9,7 +9,7 @@ pub(super) const HALF_HEIGHT: f64 = 0.5206;
 /// picture's height. Usual pictures are a third wider than they are high.
 const ASIDE: f64 = 1.15 * HALF_HEIGHT;
 const ABOVE: f64 = 0.88 * HALF_HEIGHT;
-const BELOW: f64 = 0.74 * HALF_HEIGHT;
+const BELOW: f64 = 0.7 * HALF_HEIGHT;
 
 /// How much of the room above and below is above.
 const ROOM_ABOVE: f64 = 0.7;

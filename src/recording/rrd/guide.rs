@@ -30,7 +30,7 @@ fn page(experiment: &Experiment, outcome: &RunOutcome) -> String {
 
 const READING: &str = "\
 A person taught the arm by leading it (grey paths). From the demonstrations the arm learned a movement of states. Where the demonstrations
-agree, a state is **stiff** (green): the arm holds its way. Where they disagree, it **complies** (purple): the arm yields to forces, and a
+agree, a state is **stiff** (green): the arm holds its way. Where they disagree, it **complies** (pink): the arm yields to forces, and a
 person may push it to where it should go (vermilion arrow). Ellipsoids and ellipses show how far the demonstrations of one setting disagree in
 each state, at two standard deviations.
 

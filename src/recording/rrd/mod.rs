@@ -45,6 +45,7 @@ mod replay_figure;
 mod robot_figure;
 mod scene_figure;
 mod scene_key;
+mod see_through;
 mod spread_figure;
 mod state_figure;
 mod task_states;

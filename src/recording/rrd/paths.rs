@@ -21,10 +21,20 @@ pub(super) const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 /// Samples of a taught or planned path that are drawn: a piece of 0.1 s of a movement of 28 s.
 const DRAWN_SAMPLES: usize = 280;
 
+/// Widths of lines in the plots of motion (points): where they lie on each other, what is drawn below is seen at both sides of what is above. Taught
+/// ones are many: they are thin where they do not lie on the plan.
+const TAUGHT_WIDTHS: [f32; 2] = [0.8, 9.0];
+const ON_PLAN_M: f64 = 0.003;
+const PLANNED_WIDTH: f32 = 7.0;
+pub(super) const BESIDE_WIDTHS: [f32; 2] = [5.0, 4.0];
+const EXECUTED_WIDTH: f32 = 2.2;
+
 /// Logs what was taught and what is planned, in dashes. `duration_s` is how long the execution of the skill takes.
 pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, dashes): (f64, &Dashes)) -> Result<(), Fault> {
-    for demonstration in &outcome.dataset.demonstrations {
-        let path = Path::new(&demonstration.trajectory, duration_s);
+    let planned = Path::new(&outcome.plan, outcome.plan.duration_s());
+    let demonstrations = &outcome.dataset.demonstrations;
+    let taught: Vec<Path> = demonstrations.iter().map(|demonstration| Path::new(&demonstration.trajectory, duration_s)).collect();
+    for (path, demonstration) in taught.iter().zip(demonstrations) {
         let name = demonstration.name.as_str();
         if let Some(places) = path.places() {
             let line = dashes.whole(&places, Slot::Taught).with_colors([palette::TAUGHT_PATH]);
@@ -32,21 +42,20 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, 
         }
         for (axis, axis_name) in AXES.iter().enumerate() {
             let entity = TAUGHT_MOTION.of(&[axis_name, name]);
-            path.log(recorder, &entity, axis, &style("taught", palette::TAUGHT, 0.8))?;
+            path.log_taught(recorder, &entity, axis, &planned)?;
         }
     }
-    let planned = Path::new(&outcome.plan, outcome.plan.duration_s());
     if let Some(places) = planned.places() {
         recorder.from(Since::Start, PLANNED_PATH.path(), &dashes.whole(&places, Slot::Planned).with_colors([palette::PLANNED]))?;
     }
     for (axis, name) in AXES.iter().enumerate() {
-        planned.log(recorder, &PLANNED_MOTION.of(&[name]), axis, &style("planned", palette::PLANNED, 4.0))?;
+        planned.log(recorder, &PLANNED_MOTION.of(&[name]), axis, &style("planned", palette::PLANNED, PLANNED_WIDTH))?;
     }
     Ok(())
 }
 
 /// Radius of the executed path (m), seen from far: dashes are thicker, and are seen on it.
-pub(super) const EXECUTED_M: f32 = 0.0045;
+pub(super) const EXECUTED_M: f32 = 0.0055;
 
 /// Logs where the tool went, as a camera sees it.
 pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord], camera: &Camera) -> Result<(), Fault> {
@@ -58,7 +67,7 @@ pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord], camera: 
     recorder.always(EXECUTED_PATH.path(), &look)?;
     for (axis, name) in AXES.iter().enumerate() {
         let entity = EXECUTED_MOTION.of(&[name]);
-        recorder.always(entity.clone(), &style("executed", palette::EXECUTED, 1.5))?;
+        recorder.always(entity.clone(), &style("executed", palette::EXECUTED, EXECUTED_WIDTH))?;
         let values: Vec<f64> = tools.iter().map(|tool| tool.translation.vector[axis]).collect();
         recorder.every_step(entity, Scalars::new(values).columns_of_unit_batches()?)?;
     }
@@ -99,6 +108,27 @@ impl Path {
         let [Some(x), Some(y), Some(z)] = &self.columns else { return None };
         let duration_s = self.times_s.last().copied().filter(|last| *last > 0.0).unwrap_or(1.0);
         Some((0..x.len()).map(|i| (self.times_s[i] / duration_s, Vector3::new(x[i], y[i], z[i]))).collect())
+    }
+
+    /// A coordinate (m) at a time (s) after which there is a sample; the last one later.
+    fn at(&self, axis: usize, time_s: f64) -> Option<f64> {
+        let values = self.columns[axis].as_ref()?;
+        let next = self.times_s.partition_point(|time| *time < time_s).min(values.len() - 1);
+        let before = next.saturating_sub(1);
+        let span_s = self.times_s[next] - self.times_s[before];
+        let share = if span_s > 0.0 { ((time_s - self.times_s[before]) / span_s).clamp(0.0, 1.0) } else { 1.0 };
+        Some(values[before] + share * (values[next] - values[before]))
+    }
+
+    /// Logs a taught coordinate, wide where it lies on the planned one.
+    fn log_taught(&self, recorder: &Recorder, entity: &rerun::EntityPath, axis: usize, planned: &Self) -> Result<(), Fault> {
+        let Some(values) = &self.columns[axis] else { return Ok(()) };
+        recorder.always(entity.clone(), &SeriesLines::new().with_names(["taught"]).with_colors([palette::TAUGHT]))?;
+        let on_plan = |(time_s, value): (&f64, &f64)| planned.at(axis, *time_s).is_some_and(|there| (there - value).abs() < ON_PLAN_M);
+        let widths = self.times_s.iter().zip(values).map(|sample| TAUGHT_WIDTHS[usize::from(on_plan(sample))]);
+        let looks = SeriesLines::update_fields().with_widths(widths).columns_of_unit_batches()?;
+        let scalars = Scalars::new(values.iter().copied()).columns_of_unit_batches()?;
+        recorder.at_times(entity.clone(), &self.times_s, scalars.chain(looks))
     }
 
     fn log(&self, recorder: &Recorder, entity: &rerun::EntityPath, axis: usize, style: &SeriesLines) -> Result<(), Fault> {

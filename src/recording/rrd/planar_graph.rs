@@ -10,19 +10,19 @@ use super::recorder::Fault;
 use crate::planar::{Transitions, chain_color};
 
 /// Width of the graph, and distance of the lanes of two chains (points of the view).
-const SIZE: [f64; 2] = [900.0, 90.0];
+const SIZE: [f64; 2] = [620.0, 56.0];
 
 /// Space around the outermost states (points of the view).
-const MARGIN: f64 = 60.0;
+const MARGIN: [f64; 2] = [50.0, 26.0];
 
 /// What the view of the graph shows: every lane, and the boxes of the outermost states.
 pub(super) fn bounds(transitions: &Transitions) -> Range2D {
     let phases = || transitions.graph.nodes.iter().map(|node| node.phase * SIZE[0]);
-    let x = [phases().fold(0.0, f64::min) - MARGIN, phases().fold(SIZE[0], f64::max) + MARGIN];
+    let x = [phases().fold(0.0, f64::min) - MARGIN[0], phases().fold(SIZE[0], f64::max) + MARGIN[0]];
     // States of no chain, where there are some, lie on a lane of their own below.
     let in_none = |state: usize| transitions.chains.iter().all(|chain| !chain.states.contains(&state));
     let lanes = transitions.chains.len() + usize::from((0..transitions.graph.nodes.len()).any(in_none));
-    let y = [-MARGIN, lanes.saturating_sub(1) as f64 * SIZE[1] + MARGIN];
+    let y = [-MARGIN[1], lanes.saturating_sub(1) as f64 * SIZE[1] + MARGIN[1]];
     Range2D { x_range: x.into(), y_range: y.into() }
 }
 

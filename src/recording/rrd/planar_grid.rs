@@ -15,6 +15,8 @@ const GRID_COLOR: Color = palette::rgb(crate::palette::Rgb::new(205, 205, 205));
 const GRID_PT: f32 = 1.2;
 /// So many metres at most are written along an axis.
 const MOST_NUMBERS: usize = 5;
+/// How far below its place a number is written, as a share of the height of what is seen.
+const WRITTEN_BELOW: f64 = 0.035;
 
 /// Logs the lines and their numbers.
 pub(super) fn log_grid(recorder: &PlanarRecorder, outcome: &PlanarOutcome) -> Result<(), Fault> {
@@ -44,7 +46,7 @@ fn whole([low, high]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
 /// What is seen of a plane with these bounds (m): at the left and below there is room for numbers, which would lie on paths.
 pub(super) fn with_numbers([x, y]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     let lower = |[low, high]: [f64; 2], share: f64| [low - share * (high - low), high];
-    [lower(x, 0.14), lower(y, 0.06)]
+    [lower(x, 0.2), lower(y, 0.06)]
 }
 
 /// Some of the whole metres within bounds (m), as numbers at the left and below.
@@ -54,8 +56,9 @@ fn numbers(recorder: &PlanarRecorder, [x, y]: [[f64; 2]; 2]) -> Result<(), Fault
         [1, 2, 5, 10, 20, 50].map(of).into_iter().find(|some| some.len() <= MOST_NUMBERS).unwrap_or_default()
     };
     let [[left, _], _] = with_numbers([x, y]);
-    let beside = few(y).into_iter().map(|at| ([(left + x[0]) / 2.0, at as f64], at));
     // The viewer writes below the place.
+    let above = WRITTEN_BELOW * (y[1] - y[0]);
+    let beside = few(y).into_iter().map(|at| ([(left + x[0]) / 2.0, at as f64 + above], at));
     let below = few(x).into_iter().map(|at| ([at as f64, y[0]], at));
     let (places, metres): (Vec<[f64; 2]>, Vec<i64>) = below.chain(beside).unzip();
     let labels = Points2D::new(points(&places))

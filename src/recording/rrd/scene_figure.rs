@@ -9,8 +9,13 @@ use super::recorder::{Fault, Recorder, Since};
 use crate::simulation::{Experiment, StepRecord};
 use crate::world::{Object, ObjectKind, ObjectPart, Parameters, PartShape, fixed_parts, object_parts, support_height_m};
 
-/// Logs every object: its shapes, and its pose over time.
-pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records: &[StepRecord]) -> Result<(), Fault> {
+/// Logs every object: its shapes, and its pose over time. Those that `see_through` names by their index are translucent.
+pub(super) fn log_objects(
+    recorder: &Recorder,
+    experiment: &Experiment,
+    records: &[StepRecord],
+    see_through: &[usize],
+) -> Result<(), Fault> {
     for (index, object) in experiment.objects.iter().enumerate() {
         let poses: Vec<Isometry3<f64>> = records.iter().filter_map(|record| record.objects.get(index).copied()).collect();
         let entity = OBJECT.of(&[&object.name]);
@@ -20,23 +25,30 @@ pub(super) fn log_objects(recorder: &Recorder, experiment: &Experiment, records:
         } else {
             recorder.from(Since::Start, entity, &convert::transform(&object.pose(&experiment.parameters, support)))?;
         }
-        log_shapes(recorder, Since::Start, &OBJECT_SHAPE, object, &experiment.parameters)?;
+        let fill = if see_through.contains(&index) { FillMode::TransparentFillMajorWireframe } else { FillMode::Solid };
+        log_shapes(recorder, Since::Start, (&OBJECT_SHAPE, fill), object, &experiment.parameters)?;
         let pose = object.pose(&experiment.parameters, support);
-        log_fixed(recorder, Since::Start, (&OBJECT, &OBJECT_SHAPE), object, &pose)?;
+        log_fixed(recorder, Since::Start, (&OBJECT, &OBJECT_SHAPE, fill), object, &pose)?;
     }
     Ok(())
 }
 
 /// Logs what an object looks like in a setting.
-pub(super) fn log_shapes(recorder: &Recorder, when: Since, entity: &Entity, object: &Object, parameters: &Parameters) -> Result<(), Fault> {
-    log_parts(recorder, when, (entity, &object.name), color(object), &object_parts(object, parameters))
+pub(super) fn log_shapes(
+    recorder: &Recorder,
+    when: Since,
+    (entity, fill): (&Entity, FillMode),
+    object: &Object,
+    parameters: &Parameters,
+) -> Result<(), Fault> {
+    log_parts(recorder, when, (entity, &object.name), (color(object), fill), &object_parts(object, parameters))
 }
 
 /// Logs the parts of a moving object that stand still, as an object of their own at `pose`.
 pub(super) fn log_fixed(
     recorder: &Recorder,
     when: Since,
-    (place, shape): (&Entity, &Entity),
+    (place, shape, fill): (&Entity, &Entity, FillMode),
     object: &Object,
     pose: &Isometry3<f64>,
 ) -> Result<(), Fault> {
@@ -47,10 +59,16 @@ pub(super) fn log_fixed(
     let name = format!("{}_fixed", object.name);
     let at = convert::transform(pose);
     recorder.from(when, place.of(&[&name]), &at)?;
-    log_parts(recorder, when, (shape, &name), color(object), &parts)
+    log_parts(recorder, when, (shape, &name), (color(object), fill), &parts)
 }
 
-fn log_parts(recorder: &Recorder, when: Since, (entity, name): (&Entity, &str), color: Color, parts: &[ObjectPart]) -> Result<(), Fault> {
+fn log_parts(
+    recorder: &Recorder,
+    when: Since,
+    (entity, name): (&Entity, &str),
+    (color, fill): (Color, FillMode),
+    parts: &[ObjectPart],
+) -> Result<(), Fault> {
     let (mut boxes, mut balls, mut cylinders, mut bars) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for part in parts {
         let pose = part.object_from_part;
@@ -72,13 +90,13 @@ fn log_parts(recorder: &Recorder, when: Since, (entity, name): (&Entity, &str), 
         let solid = Boxes3D::from_centers_and_half_sizes(boxes.iter().map(|b| b.0), boxes.iter().map(|b| b.2))
             .with_quaternions(boxes.iter().map(|b| b.1))
             .with_colors([color])
-            .with_fill_mode(FillMode::Solid);
+            .with_fill_mode(fill);
         recorder.from(when, entity.of(&[name, "boxes"]), &solid)?;
     }
     if !balls.is_empty() {
         let solid = Ellipsoids3D::from_centers_and_radii(balls.iter().map(|b| b.0), balls.iter().map(|b| b.1))
             .with_colors([color])
-            .with_fill_mode(FillMode::Solid);
+            .with_fill_mode(fill);
         recorder.from(when, entity.of(&[name, "balls"]), &solid)?;
     }
     if !cylinders.is_empty() {
@@ -86,7 +104,7 @@ fn log_parts(recorder: &Recorder, when: Since, (entity, name): (&Entity, &str), 
             .with_centers(cylinders.iter().map(|c| c.0))
             .with_quaternions(cylinders.iter().map(|c| c.1))
             .with_colors([color])
-            .with_fill_mode(FillMode::Solid);
+            .with_fill_mode(fill);
         recorder.from(when, entity.of(&[name, "cylinders"]), &solid)?;
     }
     if !bars.is_empty() {
@@ -94,7 +112,7 @@ fn log_parts(recorder: &Recorder, when: Since, (entity, name): (&Entity, &str), 
             .with_translations(bars.iter().map(|b| b.0))
             .with_quaternions(bars.iter().map(|b| b.1))
             .with_colors([color])
-            .with_fill_mode(FillMode::Solid);
+            .with_fill_mode(fill);
         recorder.from(when, entity.of(&[name, "bars"]), &solid)?;
     }
     Ok(())

@@ -2,12 +2,13 @@
 
 use rerun::TextDocument;
 
+use super::beside;
 use super::entity_path::{RESULT, SCENE_KEY};
 use super::force_figure::Told;
 use super::lanes::beta_in_words;
 use super::recorder::{Fault, Recorder};
 use crate::learning::cpdmp::{CouplingMode, CouplingSettings};
-use crate::simulation::Experiment;
+use crate::simulation::{Beside, Experiment};
 use crate::world::NEAR_M;
 
 /// Logs the result in words, or that there is none yet.
@@ -29,24 +30,30 @@ pub(super) struct Contacts {
 }
 
 /// Logs the key of the scene. `betas` are those of the states that are drawn, and `listens` tells whether the coupling is on. What touches is judged
-/// when the run is over; `None` before.
-pub(super) fn log_key(recorder: &Recorder, told: Told, (betas, listens): (&[f64], bool), contacts: Option<Contacts>) -> Result<(), Fault> {
+/// when the run is over, `None` before; then it is known what stands beside it, too.
+pub(super) fn log_key(
+    recorder: &Recorder,
+    told: Told,
+    (betas, listens): (&[f64], bool),
+    (contacts, beside): (Option<Contacts>, &[Beside]),
+) -> Result<(), Fault> {
     let mut lines = Vec::new();
     if !betas.is_empty() {
         let off = if listens || betas.iter().all(|beta| *beta == 0.0) { "" } else { ", but the coupling is off" };
-        lines.push(format!("Ellipsoids, states: {}{off}; the active one with thick lines", colors_of(betas).join(", ")));
+        lines.push(format!("Ellipsoids, ellipses: states, {}{off}; thick: active", colors_of(betas).join(", ")));
     }
     let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("the person's vermilion", told.person)];
-    lines.push("Lines: executed whole, others thick by turns".to_owned());
-    lines.push(format!("Arrows, forces, drawn beside the tool: {}", those(&arrows)));
+    lines.push("Lines: executed unbroken, others with dashes".to_owned());
+    lines.push(format!("Arrows, forces beside the tool: {}", those(&arrows)));
     match contacts {
-        None => lines.push("White points: contacts; which of them must not be is told when the run is over".to_owned()),
+        None => lines.push("White points: contacts; which are forbidden is told when the run is over".to_owned()),
         Some(Contacts { allowed, refused, near }) => {
-            let points = those(&[("red must not be", refused), ("white may be", allowed)]);
+            let points = those(&[("forbidden red", refused), ("allowed white", allowed)]);
             lines.extend((allowed || refused).then(|| format!("Points, contacts: {points}")));
-            lines.extend(near.then(|| format!("White line: a smallest distance, if below {:.0} cm", NEAR_M * 1e2)));
+            lines.extend(near.then(|| format!("White line: smallest distance below {:.0} cm", NEAR_M * 1e2)));
         }
     }
+    lines.extend(beside.iter().map(beside::in_short));
     recorder.always(SCENE_KEY.path(), &TextDocument::new(lines.join("\n")))
 }
 
@@ -57,7 +64,7 @@ fn those(all: &[(&str, bool)]) -> String {
 
 /// The colours of states, each with what it means.
 fn colors_of(betas: &[f64]) -> Vec<&'static str> {
-    let kinds = [(0.0, "stiff green"), (-1.0, "complying purple"), (1.0, "minimising force error violet")];
+    let kinds = [(0.0, "stiff green"), (-1.0, "complying pink"), (1.0, "minimising force error violet")];
     let there = |kind: f64| betas.iter().any(|beta| beta_in_words(*beta) == beta_in_words(kind));
     kinds.into_iter().filter(|(kind, _)| there(*kind)).map(|(_, color)| color).collect()
 }
@@ -85,7 +92,7 @@ mod tests {
     #[test]
     fn only_colours_that_are_there_are_named() {
         assert_eq!(colors_of(&[0.0, 0.0]), ["stiff green"]);
-        assert_eq!(colors_of(&[0.0, -1.0, 0.0]), ["stiff green", "complying purple"]);
+        assert_eq!(colors_of(&[0.0, -1.0, 0.0]), ["stiff green", "complying pink"]);
         assert_eq!(colors_of(&[1.0]), ["minimising force error violet"]);
     }
 }

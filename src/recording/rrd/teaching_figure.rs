@@ -1,7 +1,7 @@
 //! The lessons: a person leads the arm, one demonstration after the other, on a timeline of their own.
 
 use nalgebra::{Isometry3, Vector3};
-use rerun::{Arrows3D, EntityPath, LineStrips3D, Scalars, StateChange, TextDocument, Transform3D, ViewCoordinates};
+use rerun::{Arrows3D, EntityPath, FillMode, LineStrips3D, Scalars, StateChange, TextDocument, Transform3D, ViewCoordinates};
 
 use super::arrow::{Arrow, SMALLEST_N};
 use super::camera::Camera;
@@ -44,9 +44,9 @@ pub(super) fn log_lessons(recorder: &Recorder, experiment: &Experiment, robot: &
         let start_s = film.append(lesson);
         for object in &experiment.objects {
             let when = Since::On(TEACHING_TIME, start_s);
-            scene_figure::log_shapes(recorder, when, &TEACHING_OBJECT_SHAPE, object, &lesson.parameters)?;
+            scene_figure::log_shapes(recorder, when, (&TEACHING_OBJECT_SHAPE, FillMode::Solid), object, &lesson.parameters)?;
             let pose = object.pose(&lesson.parameters, support_height_m(&experiment.objects, object, &lesson.parameters));
-            scene_figure::log_fixed(recorder, when, (&TEACHING_OBJECT, &TEACHING_OBJECT_SHAPE), object, &pose)?;
+            scene_figure::log_fixed(recorder, when, (&TEACHING_OBJECT, &TEACHING_OBJECT_SHAPE, FillMode::Solid), object, &pose)?;
         }
     }
     film.log_bodies(recorder, robot)?;

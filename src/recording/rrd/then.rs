@@ -10,8 +10,9 @@ use crate::world::{Object, ObjectKind, Parameters, Shapes};
 const ARM_SHARE: f64 = 0.7;
 const ARM_M: f64 = 0.6;
 
-/// How far the places around the tool lie that should be seen too (m).
+/// How far the places around the tool lie that should not be hidden (m), and those that should be in the picture.
 const AROUND_M: f64 = 0.1;
+const HELD_M: f64 = 0.04;
 
 /// Objects that the tool comes so near to, each way (m), belong to the work.
 const NEAR_M: f64 = 0.15;
@@ -45,7 +46,7 @@ impl Then {
         let posed = |index: usize| (&objects[index], moment.objects.get(index).copied());
         let all = Shapes::of_objects((0..objects.len()).map(posed), objects, parameters);
         let robot = Shapes::of_robot(bodies, &moment.bodies);
-        let tool = around(&moment.tool);
+        let tool = around(&moment.tool, AROUND_M);
         // What everything stands on goes on beyond the picture.
         let things = (0..objects.len()).filter(|index| !matches!(objects[*index].kind, ObjectKind::Table { .. }));
         let near = things.map(|index| Shapes::of_objects([posed(index)], objects, parameters).corners());
@@ -53,7 +54,7 @@ impl Then {
         let arm_m = (ARM_SHARE * work.size.norm()).min(ARM_M);
         let arm = moment.bodies.iter().map(|pose| Point3::from(pose.translation.vector));
         held.extend(arm.filter(|place| (place.coords - moment.tool).norm() <= arm_m));
-        held.extend(&tool);
+        held.extend(around(&moment.tool, HELD_M));
         let bulky = robot.corners();
         Self { shapes: all.with(robot), tool, held, bulky }
     }
@@ -73,8 +74,8 @@ fn is_near(corners: &[Point3<f64>], places: &[Vector3<f64>]) -> bool {
     places.iter().any(|place| (place.sup(&low).inf(&high) - place).amax() < NEAR_M)
 }
 
-/// A place and its surroundings.
-fn around(place: &Vector3<f64>) -> Vec<Point3<f64>> {
-    let beside = (0..3).flat_map(|axis| [AROUND_M, -AROUND_M].map(|m| place + Vector3::ith(axis, m)));
+/// A place and others around it, each so far away (m).
+fn around(place: &Vector3<f64>, away_m: f64) -> Vec<Point3<f64>> {
+    let beside = (0..3).flat_map(|axis| [away_m, -away_m].map(|m| place + Vector3::ith(axis, m)));
     std::iter::once(*place).chain(beside).map(Point3::from).collect()
 }

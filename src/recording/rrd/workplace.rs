@@ -11,7 +11,7 @@ const MOMENTS: usize = 8;
 const PLACES: usize = 40;
 
 /// Where the tool is at some moment (m, world), and the poses of the objects and of the robot's bodies then, as far as they are known.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Moment {
     pub tool: Vector3<f64>,
     pub objects: Vec<Isometry3<f64>>,
