@@ -4,7 +4,7 @@
 use super::dashes::{Dashes, Slot};
 use super::entity_path::BASELINE_PATH;
 use super::palette;
-use super::paths::Path;
+use super::path::Path;
 use super::recorder::{Fault, Recorder, Since};
 use crate::demonstration::Trajectory;
 use crate::learning::{ExecutionSettings, LearningError, LearningSettings, ShapingKind, generate, learn};

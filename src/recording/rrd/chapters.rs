@@ -13,7 +13,7 @@ use super::entity_path::WORLD;
 use super::floor::floor_m;
 use super::force_figure::Told;
 use super::layout::Shown;
-use super::paths::Path;
+use super::path::Path;
 use super::recorder::{Fault, Recorder};
 use super::teaching_figure::Lessons;
 use super::then::Scene;
@@ -129,7 +129,9 @@ impl Chapters<'_> {
 
     /// What is known when it is over.
     pub fn end(&self, outcome: &RunOutcome) -> Result<(), Fault> {
-        contact_figure::log_contacts(&self.recorder(&[]), outcome, &self.camera(&outcome.robot))?;
+        // The active state is named in the lowest line, where there are states.
+        let below = usize::from(!self.drawn_betas(outcome)?.is_empty());
+        contact_figure::log_contacts(&self.recorder(&[]), outcome, (&self.camera(&outcome.robot), below))?;
         if !self.beside.is_empty() {
             beside::log_forces(&self.recorder(&outcome.steps), &outcome.steps, &outcome.skill, (beside::RUN, palette::EXECUTED))?;
             beside::log_colors(&self.recorder(&[]), self.beside, outcome.skill.force.is_some())?;

@@ -23,15 +23,15 @@ const NEAR_RADIUS_M: f64 = 0.005;
 const TOUCH_PT: f32 = 3.0;
 const FAULT_PT: f32 = 7.0;
 
-/// Logs what must not touch, and smallest distances that are near ones, when they happen, in words above those of the active state.
-pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome, camera: &Camera) -> Result<(), Fault> {
+/// Logs what must not touch, and smallest distances that are near ones, when they happen, in words above so many lines of others.
+pub(super) fn log_contacts(recorder: &Recorder, outcome: &RunOutcome, (camera, below): (&Camera, usize)) -> Result<(), Fault> {
     let near = near(outcome);
     let refused = outcome.collisions.iter().enumerate().filter(|(_, contact)| !contact.allowed);
     let faults: Vec<(&ContactEpisode, Vec<Stretch>)> =
         refused.map(|(index, contact)| (contact, stretches(&outcome.steps, index))).collect();
     // What must not touch comes first, and has the lowest lines.
     let times = faults.iter().flat_map(|(_, stretches)| stretches).map(shown).chain(near.iter().map(|clearance| around(clearance)));
-    let mut lines = lines(&times.collect::<Vec<_>>()).into_iter();
+    let mut lines = lines(&times.collect::<Vec<_>>(), below).into_iter();
     for (contact, stretches) in &faults {
         let places: Vec<_> = lines.by_ref().take(stretches.len()).map(|line| camera.words(line)).collect();
         log_fault(recorder, contact, (stretches, &places))?;
@@ -102,13 +102,13 @@ fn there_and_gone(things: usize) -> Vec<usize> {
     (0..2 * things).map(|i| usize::from(i % 2 == 0)).collect()
 }
 
-/// Lines of words for what is shown from one time to another (s): the lowest ones above line 0 in which no two are shown at one time.
-fn lines(shown: &[[f64; 2]]) -> Vec<usize> {
+/// Lines of words for what is shown from one time to another (s): from `first` on the lowest ones in which no two are shown at one time.
+fn lines(shown: &[[f64; 2]], first: usize) -> Vec<usize> {
     let mut lines: Vec<usize> = Vec::new();
     for (index, [from, to]) in shown.iter().enumerate() {
         let together = |other: usize| shown[other][0] <= *to && *from <= shown[other][1];
         let taken = |line: usize| (0..index).any(|other| lines[other] == line && together(other));
-        let free = (1..).find(|line| !taken(*line)).unwrap_or(1);
+        let free = (first..).find(|line| !taken(*line)).unwrap_or(first);
         lines.push(free);
     }
     lines
@@ -133,8 +133,8 @@ mod tests {
     #[test]
     fn words_that_are_shown_at_one_time_have_lines_of_their_own() {
         let at = |moment_s: f64| [moment_s - 0.4, moment_s + 0.8];
-        assert_eq!(lines(&[at(1.0), at(2.0), at(3.5), at(10.0), at(1.5)]), [1, 2, 1, 1, 3]);
-        assert_eq!(lines(&[[0.0, 20.0], at(3.0), at(5.0), at(21.0)]), [1, 2, 2, 1]);
-        assert!(lines(&[]).is_empty());
+        assert_eq!(lines(&[at(1.0), at(2.0), at(3.5), at(10.0), at(1.5)], 1), [1, 2, 1, 1, 3]);
+        assert_eq!(lines(&[[0.0, 20.0], at(3.0), at(5.0), at(21.0)], 0), [0, 1, 1, 0]);
+        assert!(lines(&[], 1).is_empty());
     }
 }

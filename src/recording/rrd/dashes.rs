@@ -5,7 +5,8 @@ use rerun::{LineStrips3D, SerializedComponentColumn};
 
 use super::camera::Camera;
 use super::convert;
-use super::paths::{Path, pieces};
+use super::path::Path;
+use super::paths::pieces;
 use super::recorder::Fault;
 use crate::simulation::StepRecord;
 

@@ -28,7 +28,7 @@ pub(super) fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizont
     let axes = axes(&shown.way_m);
     let [first, second] = [views.motion(axes[0], &others)?, views.motion(axes[1], &others)?];
     let mut right: Vec<ContainerLike> = vec![first.into(), second.into(), Tabs::new(more(views, axes, shown)?).into()];
-    let mut shares = vec![1.0, 1.0, 1.25];
+    let mut shares = vec![1.0, 1.0, 1.4];
     if shown.states.is_some() {
         let unit = shown.spread_unit;
         let title = format!("How far demonstrations disagree in the active state (orange), threshold sigma (white); {unit}");
@@ -53,7 +53,7 @@ fn below_the_scene(views: &mut Views) -> Result<Horizontal, Fault> {
 /// What is looked at in its turn.
 fn more(views: &mut Views, [first, second, third]: [&str; 3], shown: &Shown<'_>) -> Result<Vec<ContainerLike>, Fault> {
     let mut side_by_side = |name: &str, plots: &[(&str, &str)]| -> Result<Horizontal, Fault> {
-        let plots: Result<Vec<View>, Fault> = plots.iter().map(|(title, origin)| views.plot(title, origin)).collect();
+        let plots: Result<Vec<View>, Fault> = plots.iter().map(|(title, origin)| views.high_plot(title, origin)).collect();
         Ok(Horizontal::new(plots?.into_iter().map(Into::into)).with_name(name))
     };
     let forces = side_by_side("", &[("x (N)", "plots/force/x"), ("y (N)", "plots/force/y"), ("z (N)", "plots/force/z")])?;
@@ -82,7 +82,7 @@ fn more(views: &mut Views, [first, second, third]: [&str; 3], shown: &Shown<'_>)
 /// measured.
 fn compared(views: &mut Views, beside: &[Beside]) -> Result<Vec<ContainerLike>, Fault> {
     let mut page = |name: &str, key: &Entity, origin: &str| -> Result<ContainerLike, Fault> {
-        let plot = |axis: &&str| Ok(views.plot(&format!("{axis} (N)"), &format!("plots/beside/{origin}/{axis}"))?.into());
+        let plot = |axis: &&str| Ok(views.high_plot(&format!("{axis} (N)"), &format!("plots/beside/{origin}/{axis}"))?.into());
         let plots: Vec<ContainerLike> = AXES.iter().map(plot).collect::<Result<_, Fault>>()?;
         let key = TextDocumentView::new("Key").with_origin(key.pattern);
         Ok(Horizontal::new([Horizontal::new(plots).into(), key.into()]).with_name(name).with_column_shares(vec![4.6, 1.0]).into())

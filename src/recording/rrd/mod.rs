@@ -26,6 +26,7 @@ mod lesson_pages;
 mod live;
 mod outline_figure;
 mod palette;
+mod path;
 mod paths;
 pub mod planar_entity;
 mod planar_forcing;

@@ -42,9 +42,9 @@ pub(super) fn log_key(
         let off = if listens || betas.iter().all(|beta| *beta == 0.0) { "" } else { ", but the coupling is off" };
         lines.push(format!("Ellipsoids, ellipses: states, {}{off}; thick: active", colors_of(betas).join(", ")));
     }
-    let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("the person's vermilion", told.person)];
-    lines.push("Lines: executed unbroken, others with dashes".to_owned());
-    lines.push(format!("Arrows, forces beside the tool: {}", those(&arrows)));
+    let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("person vermilion", told.person)];
+    lines.push("Lines: executed unbroken, others dashed".to_owned());
+    lines.push(format!("Arrows, forces: {}", those(&arrows)));
     match contacts {
         None => lines.push("White points: contacts; which are forbidden is told when the run is over".to_owned()),
         Some(Contacts { allowed, refused, near }) => {

@@ -31,3 +31,41 @@ pub(super) fn before(camera: &Camera, work: &Workplace, scene: &Scene<'_>) -> Ve
     };
     (0..scene.objects.len()).filter(hides).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Isometry3, Vector2, Vector3};
+
+    use super::*;
+    use crate::world::{Object, Parameters, Quantity};
+
+    /// Contract: what hides much of the ways where it starts or where it comes is seen through; what does not is not, and neither is what everything
+    /// stands on.
+    #[test]
+    fn what_hides_the_ways_is_seen_through() {
+        let friction = || Quantity::Value(0.5);
+        let wall = |name: &str, y: f64| {
+            let kind = ObjectKind::Basket {
+                inner_size_m: Vector2::new(0.02, 0.5),
+                wall_height_m: 0.6,
+                wall_thickness_m: 0.01,
+                friction: friction(),
+            };
+            Object::new(name, Vector2::new(0.8, y), kind)
+        };
+        let table = ObjectKind::Table { size_m: Vector2::new(0.9, 9.0), top_height_m: 0.0, friction: friction() };
+        let objects = [wall("before", 0.2), wall("beside", 4.0), Object::new("table", Vector2::new(0.8, 0.0), table)];
+        let tool = |y: f64| Vector3::new(0.5, y, 0.2);
+        let seen = |eye_z: f64, poses: [Vec<Isometry3<f64>>; 2]| {
+            let moments = poses.into_iter().zip([0.0, 0.4]).map(|(objects, y)| Moment { tool: tool(y), objects, bodies: Vec::new() });
+            let camera = Camera { eye: Vector3::new(2.0, 0.2, eye_z), target: tool(0.2), words: 1.0, share: 1.0 };
+            let scene = Scene { objects: &objects, parameters: &Parameters::default(), bodies: &[] };
+            before(&camera, &Workplace::around(moments.collect()), &scene)
+        };
+        let there = |y: f64| Isometry3::translation(0.8, y, 0.0);
+        assert_eq!(seen(0.3, [Vec::new(), Vec::new()]), [0]);
+        assert_eq!(seen(0.3, [vec![there(0.2), there(4.0)], vec![there(0.2), there(0.3)]]), [0, 1], "it comes before them");
+        assert!(seen(2.5, [Vec::new(), Vec::new()]).is_empty(), "over the wall");
+        assert!(seen(-2.0, [Vec::new(), Vec::new()]).is_empty(), "from below the table");
+    }
+}
