@@ -66,7 +66,7 @@ fn what_was_executed_beside_the_run_is_recorded_as_its_records_have_it() {
     }
 }
 
-/// Contract: the key of force errors names those that have one.
+/// Contract: the key of force errors names those that have one, the key of the scene says what each changes.
 #[test]
 fn the_key_of_force_errors_leaves_out_who_expects_no_force() {
     let mut outcome = compared();
@@ -79,6 +79,10 @@ fn the_key_of_force_errors_leaves_out_who_expects_no_force() {
     };
     assert_eq!(key(&entity_path::BESIDE_COLORS), "orange: executed\n\nmagenta: uncoupled\n\nbrown: blind");
     assert_eq!(key(&entity_path::ERROR_COLORS), "orange: executed\n\nbrown: blind");
+    assert!(
+        key(&entity_path::SCENE_KEY).ends_with("\nuncoupled: coupling.enabled=false\nblind: coupling.enabled=false"),
+        "what each changes"
+    );
 }
 
 /// Runs that are executed say more than the plan of a baseline.

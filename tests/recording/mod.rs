@@ -7,6 +7,8 @@ mod documented;
 #[cfg(feature = "rerun")]
 mod live_recording;
 pub mod made_up_run;
+#[cfg(feature = "rerun")]
+mod motion_plot;
 mod path_log;
 #[cfg(feature = "rerun")]
 mod planar_recording;
