@@ -1,17 +1,26 @@
 //! What can be seen from where: for pictures only, no controller looks.
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
-use parry3d_f64::query::Ray;
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::query::{Ray, RayCast};
 use rapier3d_f64::prelude::{Pose, SharedShape};
 
 use super::scene::collider;
 use super::{Object, ObjectPart, Parameters, PartShape, convert, fixed_parts, object_parts, support_height_m};
 use crate::robot::{Body, Geometry, Shape};
 
+/// A shape at a pose (world), with the box around it, which most rays miss.
+#[derive(Clone)]
+struct Placed {
+    pose: Pose,
+    shape: SharedShape,
+    bounds: Aabb,
+}
+
 /// Shapes at their places (world) at one moment.
 #[derive(Clone, Default)]
 pub struct Shapes {
-    shapes: Vec<(Pose, SharedShape)>,
+    shapes: Vec<Placed>,
 }
 
 impl Shapes {
@@ -54,7 +63,9 @@ impl Shapes {
     pub fn hidden(&self, from: &Point3<f64>, points: &[Point3<f64>]) -> usize {
         let hides = |point: &Point3<f64>| {
             let ray = Ray::new(convert::vector(&from.coords), convert::vector(&(point - from)));
-            self.shapes.iter().any(|(pose, shape)| shape.intersects_ray(pose, &ray, 1.0))
+            self.shapes
+                .iter()
+                .any(|placed| placed.bounds.intersects_local_ray(&ray, 1.0) && placed.shape.intersects_ray(&placed.pose, &ray, 1.0))
         };
         points.iter().filter(|point| hides(point)).count()
     }
@@ -63,15 +74,16 @@ impl Shapes {
     #[must_use]
     pub fn corners(&self) -> Vec<Point3<f64>> {
         let of_shape =
-            |(pose, shape): &(Pose, SharedShape)| shape.compute_local_aabb().vertices().map(|corner| convert::point_back(*pose * corner));
+            |placed: &Placed| placed.shape.compute_local_aabb().vertices().map(|corner| convert::point_back(placed.pose * corner));
         self.shapes.iter().flat_map(of_shape).collect()
     }
 }
 
 /// A part of something at a pose.
-fn placed(pose: &Isometry3<f64>, part: &ObjectPart) -> (Pose, SharedShape) {
+fn placed(pose: &Isometry3<f64>, part: &ObjectPart) -> Placed {
     let collider = collider(part).build();
-    (convert::pose(pose) * *collider.position(), collider.shared_shape().clone())
+    let (pose, shape) = (convert::pose(pose) * *collider.position(), collider.shared_shape().clone());
+    Placed { bounds: shape.compute_aabb(&pose), pose, shape }
 }
 
 /// The shape of a link, or the box around its mesh.
