@@ -147,8 +147,8 @@ fn a_viewer_that_hangs_or_is_not_there_keeps_nobody_waiting() {
         // Of the longest call what this thread did itself: the rest is the machine's.
         assert!(worked < Duration::from_millis(1), "{worked:?}");
         println!("longest call {:?}, of which the thread worked at most {worked:?}; it waited {waited:?} times", waits[waits.len() - 1]);
-        // It waits for nothing: a lock of the allocator may be held now and then.
-        assert!(waited.is_none_or(|waited| waited < 20), "{waited:?}");
+        // It waits for nothing. Locks of the allocator, which all tests share, are held now and then; who waits for room does so thousands of times.
+        assert!(waited.is_none_or(|waited| waited < 200), "{waited:?}");
         // A machine that does something else for a moment is not the recording's fault.
         assert!(waits[waits.len() * 99 / 100] < Duration::from_millis(1), "{:?}", &waits[waits.len() - 30..]);
         let started = Instant::now();

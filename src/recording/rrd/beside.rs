@@ -93,7 +93,7 @@ pub(super) fn in_words(beside: &[Beside]) -> String {
 
 /// One of them in a line of the key: what it changes.
 pub(super) fn in_short(one: &Beside) -> String {
-    format!("{}: {}", one.name, one.changes.join(", "))
+    format!("{}: another run, {}", one.name, one.changes.join(", "))
 }
 
 /// The same for a title.

@@ -13,18 +13,18 @@ use crate::simulation::StepRecord;
 /// How long the part of a way is on which one path may be thick, and how much of it is (m), seen from far. The rest is the executed path's, and so
 /// is every second part.
 const SLOT_M: f64 = 0.052;
-const DASH_M: f64 = 0.044;
+const DASH_M: f64 = 0.036;
 
 /// Paths beside the executed one that are there in any case: the plan, what was taught.
 const OWN: usize = 2;
 
 /// Radii of dashes and of what is between them (m), seen from far.
-const DASH_RADIUS_M: f64 = 0.0075;
-const BETWEEN_M: f64 = 0.0018;
+const DASH_RADIUS_M: f64 = 0.0092;
+const BETWEEN_M: f64 = 0.0014;
 
 /// The same of taught paths, which are many. They are seen between their dashes only where they are so far from the plan (m), or they would
 /// hide all others there.
-const TAUGHT_RADIUS_M: f64 = 0.0048;
+const TAUGHT_RADIUS_M: f64 = 0.0055;
 const TAUGHT_BETWEEN_M: f64 = 0.0012;
 const APART_M: f64 = 0.012;
 

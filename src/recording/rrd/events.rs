@@ -49,18 +49,25 @@ fn log_so_far(recorder: &Recorder, events: &[Event], after_s: Option<f64>) -> Re
     recorder.at_times(EVENTS_SO_FAR.path(), &times, pages.columns_of_unit_batches()?)
 }
 
-/// So many events have room beside the scene.
-const SO_FAR: usize = 8;
+/// So many lines of events have room beside the scene, each of so many characters.
+const LINES: usize = 8;
+const CHARACTERS: usize = 54;
 
-/// The last events until a time (s), a line each, the last one first.
+/// The last events until a time (s), as many as there is room for, the last one first.
 fn until(events: &[Event], time_s: f64) -> String {
     let line = |event: &Event| match event.kind {
         Kind::Note => format!("{:.2} s: {}", event.time_s, event.text),
         Kind::Fault => format!("ERROR {:.2} s: {}", event.time_s, event.text),
     };
-    let past: Vec<&Event> = events.iter().rev().filter(|event| event.time_s <= time_s).collect();
-    let earlier = (past.len() > SO_FAR).then(|| "earlier: see All events".to_owned());
-    past.into_iter().take(SO_FAR).map(line).chain(earlier).collect::<Vec<_>>().join("\n")
+    let past: Vec<String> = events.iter().rev().filter(|event| event.time_s <= time_s).map(line).collect();
+    let mut used = 0;
+    let has_room = |line: &&String| {
+        used += line.chars().count().div_ceil(CHARACTERS);
+        used <= LINES
+    };
+    let mut shown: Vec<&str> = past.iter().take_while(has_room).map(String::as_str).collect();
+    shown.extend((shown.len() < past.len()).then_some("earlier: see All events"));
+    shown.join("\n")
 }
 
 /// The events of a run, in the order of time.
@@ -102,8 +109,9 @@ fn touches(records: &[StepRecord], index: usize, contact: &ContactEpisode) -> Ve
     let told = |stretch: &Stretch| match stretch.hard_and_deep() {
         how if stretch.from_s == stretch.until_s => vec![fault(stretch.from_s, format!("{a} touches {b}{how}"))],
         how => {
-            let over = if stretch.until_s < end_s { "no longer touches" } else { "still touches" };
-            vec![fault(stretch.from_s, format!("{a} touches {b}")), fault(stretch.until_s, format!("{a} {over} {b}{how}"))]
+            let (kind, over) = if stretch.until_s < end_s { (Kind::Note, "no longer touches") } else { (Kind::Fault, "still touches") };
+            let over = Event { time_s: stretch.until_s, kind, text: format!("{a} {over} {b}{how}") };
+            vec![fault(stretch.from_s, format!("{a} touches {b}")), over]
         }
     };
     all.iter().flat_map(told).collect()

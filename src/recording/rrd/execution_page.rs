@@ -12,7 +12,7 @@ use crate::simulation::Beside;
 
 /// Titles stand where a legend would cover what is drawn.
 const PATHS: &str = "Taught grey, planned blue, executed orange";
-const PATHS_OF_BASELINE: &str = "Taught grey, planned by the LWR-DMP blue, executed orange";
+const PATHS_OF_BASELINE: &str = "Taught grey, planned by the LWR-DMP blue, executed orange; without states, stiff throughout";
 const BASELINE: &str = ", LWR-DMP's plan lime";
 
 /// The scene with the events at the left; motion, forces, compliance and lanes at the right.
@@ -37,8 +37,8 @@ pub(super) fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizont
     }
     let lanes = if shown.states.is_some() { "Compliance, gripper, person, state" } else { "Compliance, gripper, person" };
     right.push(StateTimelineView::new(lanes).with_origin("/lanes").into());
-    shares.push(1.35);
-    let left = Vertical::new([scene.into(), below_the_scene(views)?.into()]).with_row_shares(vec![3.1, 1.0]);
+    shares.push(1.5);
+    let left = Vertical::new([scene.into(), below_the_scene(views)?.into()]).with_row_shares(vec![2.95, 1.0]);
     Ok(Horizontal::new([left.into(), Vertical::new(right).with_row_shares(shares).into()]).with_column_shares(vec![1.25, 1.0]))
 }
 
@@ -47,7 +47,7 @@ fn below_the_scene(views: &mut Views) -> Result<Horizontal, Fault> {
     let page = |name: &str, origin: &Entity| TextDocumentView::new(name).with_origin(origin.pattern);
     let events: [ContainerLike; 2] = [page("Events until now", &EVENTS_SO_FAR).into(), views.events()?.into()];
     let parts: [ContainerLike; 3] = [page("Result", &RESULT).into(), page("Key", &SCENE_KEY).into(), Tabs::new(events).into()];
-    Ok(Horizontal::new(parts).with_column_shares(vec![1.05, 1.0, 1.3]))
+    Ok(Horizontal::new(parts).with_column_shares(vec![1.1, 1.0, 1.25]))
 }
 
 /// What is looked at in its turn.

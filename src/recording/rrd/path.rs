@@ -14,7 +14,7 @@ const DRAWN_SAMPLES: usize = 280;
 
 /// Widths of taught lines in the plots of motion (points): they are many, and thin where they do not lie on the plan, at most so far from it (m).
 /// Where they do, they are seen at both sides of it.
-const TAUGHT_WIDTHS: [f32; 2] = [0.8, 9.0];
+const TAUGHT_WIDTHS: [f32; 2] = [0.8, 10.0];
 const ON_PLAN_M: f64 = 0.003;
 
 /// A thinned trajectory, its time stretched to a duration.

@@ -19,8 +19,8 @@ pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 pub(super) const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 
 /// Widths of lines in the plots of motion (points): where they lie on each other, what is drawn below is seen at both sides of what is above.
-const PLANNED_WIDTH: f32 = 7.0;
-pub(super) const BESIDE_WIDTHS: [f32; 2] = [5.0, 4.0];
+const PLANNED_WIDTH: f32 = 6.6;
+pub(super) const BESIDE_WIDTHS: [f32; 2] = [4.6, 3.6];
 const EXECUTED_WIDTH: f32 = 2.2;
 
 /// Logs what was taught and what is planned, in dashes. `duration_s` is how long the execution of the skill takes.
@@ -49,7 +49,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, 
 }
 
 /// Radius of the executed path (m), seen from far: dashes are thicker, and are seen on it.
-pub(super) const EXECUTED_M: f32 = 0.0055;
+pub(super) const EXECUTED_M: f32 = 0.0075;
 
 /// Logs where the tool went, as a camera sees it.
 pub(super) fn log_executed(recorder: &Recorder, records: &[StepRecord], camera: &Camera) -> Result<(), Fault> {

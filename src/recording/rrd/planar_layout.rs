@@ -46,11 +46,11 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
     if let Some(transitions) = &outcome.transitions {
         let graph = GraphView::new("States and chains, the side not told").with_origin("/transitions");
         right.push(graph.with_visual_bounds(&VisualBounds2D::new(planar_graph::bounds(transitions))).into());
-        shares.push(0.6);
+        shares.push(0.55);
     }
     // A new reader reads first: what says how to is never behind something else.
     right.push(TextDocumentView::new("Result, and how to read").with_origin("/guide").into());
-    shares.push(1.35);
+    shares.push(1.6);
     let left = Grid::new(maps).with_grid_columns(columns as u32);
     let right = Vertical::new(right).with_row_shares(shares);
     let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.2, 1.0]))

@@ -43,7 +43,7 @@ pub(super) fn log_key(
         lines.push(format!("Ellipsoids, ellipses: states, {}{off}; thick: active", colors_of(betas).join(", ")));
     }
     let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("person vermilion", told.person)];
-    lines.push("Lines: executed unbroken, others dashed".to_owned());
+    lines.push("Lines: executed thick, others in places".to_owned());
     lines.push(format!("Arrows, forces: {}", those(&arrows)));
     match contacts {
         None => lines.push("White points: contacts; which are forbidden is told when the run is over".to_owned()),

@@ -7,7 +7,7 @@ use crate::robot::Body;
 use crate::world::{Object, ObjectKind, Parameters, Shapes};
 
 /// Of the arm, what is at most so far from the tool should be in the picture: as a share of the work's size, and at most (m).
-const ARM_SHARE: f64 = 0.7;
+const ARM_SHARE: f64 = 1.0;
 const ARM_M: f64 = 0.6;
 
 /// How far the places around the tool lie that should not be hidden (m), and those that should be in the picture.
