@@ -12,7 +12,7 @@ pub(super) const LEAST_STEP: f64 = 0.22;
 pub(super) const LEAST_STEP_OF_LOW: f64 = 0.4;
 pub(super) const LEAST_STEP_OF_HIGH: f64 = 0.18;
 
-/// A second number is not worth a range that is more than so many times what is drawn: that would be a line in a third of a plot.
+/// A second number is not worth a range that is more than so many times what is drawn: that would be a line in two fifths of a plot.
 const MOST_EXTENDED: f64 = 2.5;
 
 /// Free space above and below, as a share of the range: a number at the end of what is drawn is whole.

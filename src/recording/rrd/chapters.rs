@@ -2,7 +2,6 @@
 
 use std::cell::OnceCell;
 
-use rerun::blueprint::components::PlayState;
 use rerun::{RecordingStream, ViewCoordinates};
 
 use super::arrow::Arrow;
@@ -10,20 +9,16 @@ use super::axis_range::Ranges;
 use super::camera::Camera;
 use super::dashes::Dashes;
 use super::entity_path::WORLD;
-use super::floor::floor_m;
 use super::force_figure::Told;
-use super::layout::Shown;
 use super::path::Path;
 use super::recorder::{Fault, Recorder};
 use super::teaching_figure::Lessons;
 use super::then::Scene;
 use super::workplace::Workplace;
 use super::{
-    baseline, beside, blueprint_property, contact_figure, events, force_figure, forcing_figure, guide, lanes, layout, palette, paths,
-    replay_figure, robot_figure, scene_figure, scene_key, see_through, spread_figure, state_figure, task_states, teaching_figure,
+    baseline, beside, contact_figure, events, force_figure, forcing_figure, guide, lanes, palette, paths, replay_figure, robot_figure,
+    scene_figure, see_through, spread_figure, state_figure, task_states, teaching_figure,
 };
-use crate::learning::ShapingKind;
-use crate::learning::cpdmp::spread_unit;
 use crate::robot::RobotModel;
 use crate::simulation::{Beside, Experiment, Help, LessonRecord, RunOutcome};
 
@@ -47,27 +42,6 @@ pub(super) struct Chapters<'a> {
 }
 
 impl Chapters<'_> {
-    /// The layout that the recording opens with; with a page for the lessons when there are some. Plots of what has been told before are
-    /// as high as that. `skill` is the run with what was learned, if that is known.
-    pub fn layout(&self, robot: &RobotModel, skill: Option<&RunOutcome>, taught: bool, play: PlayState) -> Result<(), Fault> {
-        let Experiment { learning, execution, .. } = self.experiment;
-        let betas = skill.map(|outcome| self.drawn_betas(outcome)).transpose()?;
-        let shown = Shown {
-            camera: self.camera(robot),
-            floor_m: floor_m(self.experiment, robot),
-            way_m: self.work.way,
-            taught,
-            baseline: self.compares(),
-            beside: self.beside,
-            states: (learning.shaping != ShapingKind::Lwr).then(|| scene_key::colors_in_title(&execution.coupling, betas.as_deref())),
-            spread_unit: skill.map_or("mm or mrad", |outcome| spread_unit(&outcome.skill.motion.columns)),
-            person: execution.help != Help::None,
-            scenario: &self.experiment.name,
-        };
-        let (blueprint, properties) = layout::layout(&shown, &self.ranges, play)?;
-        blueprint_property::send(&self.stream, APPLICATION, &blueprint, &properties)
-    }
-
     /// How the demonstrations were taught.
     pub fn lessons(&self, robot: &RobotModel, lessons: &[LessonRecord]) -> Result<(), Fault> {
         let told = Lessons { lessons, number: 0, first: true, camera: self.camera(robot) };
@@ -115,18 +89,6 @@ impl Chapters<'_> {
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
     }
 
-    /// What the colours in the scene mean; what touches is judged when the run is over.
-    pub fn key(&self, outcome: &RunOutcome, is_over: bool) -> Result<(), Fault> {
-        let (told, listens) = (self.told(outcome), self.experiment.execution.coupling.enabled);
-        let contacts = is_over.then(|| contact_figure::contacts_of(outcome));
-        scene_key::log_key(&self.recorder(&[]), told, (&self.drawn_betas(outcome)?, listens), (contacts, self.beside))
-    }
-
-    /// The result in words; none while the run goes on.
-    pub fn result(&self, result: Option<&str>) -> Result<(), Fault> {
-        scene_key::log_result(&self.recorder(&[]), self.experiment, result)
-    }
-
     /// What is known when it is over.
     pub fn end(&self, outcome: &RunOutcome) -> Result<(), Fault> {
         // The active state is named in the lowest line, where there are states.
@@ -146,21 +108,21 @@ impl Chapters<'_> {
     }
 
     /// `beta` of each state that is drawn: none of a skill without states or without a place.
-    fn drawn_betas(&self, outcome: &RunOutcome) -> Result<Vec<f64>, Fault> {
+    pub(super) fn drawn_betas(&self, outcome: &RunOutcome) -> Result<Vec<f64>, Fault> {
         Ok(task_states::states(self.experiment, outcome, self.duration_s)?.iter().map(|state| state.beta).collect())
     }
 
     /// Which forces there are.
-    fn told(&self, outcome: &RunOutcome) -> Told {
+    pub(super) fn told(&self, outcome: &RunOutcome) -> Told {
         Told { expected: outcome.skill.force.is_some(), person: self.experiment.execution.help != Help::None }
     }
 
     /// Whether the baseline's plan is shown: where nothing was executed beside the run, which says more.
-    fn compares(&self) -> bool {
+    pub(super) fn compares(&self) -> bool {
         self.beside.is_empty() && baseline::compares(self.experiment)
     }
 
-    fn recorder(&self, records: &[crate::simulation::StepRecord]) -> Recorder {
+    pub(super) fn recorder(&self, records: &[crate::simulation::StepRecord]) -> Recorder {
         Recorder::new((self.stream.clone(), self.ranges.clone()), records, self.experiment.physics.step_s, self.duration_s)
     }
 
@@ -177,7 +139,7 @@ impl Chapters<'_> {
     }
 
     /// What the work is looked at with; to find it takes a while, so it is done once.
-    fn camera(&self, robot: &RobotModel) -> Camera {
+    pub(super) fn camera(&self, robot: &RobotModel) -> Camera {
         let Experiment { objects, parameters, .. } = self.experiment;
         *self.camera.get_or_init(|| Camera::on(&self.work, &Scene { objects, parameters, bodies: &robot.bodies }))
     }

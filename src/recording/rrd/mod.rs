@@ -24,6 +24,7 @@ mod lanes;
 mod layout;
 mod lesson_pages;
 mod live;
+mod opening;
 mod outline_figure;
 mod palette;
 mod path;
