@@ -124,14 +124,12 @@ fn some_metres_are_written_where_they_are() {
     let places: Vec<[f32; 2]> =
         of_entity().flat_map(|chunk| chunk.iter_slices::<[f32; 2]>(positions).flatten().copied().collect::<Vec<_>>()).collect();
     assert_eq!(words.len(), places.len());
-    let along = |axis: usize, away_m: f32| {
-        let at = |place: &[f32; 2], words: &str| {
-            let metres: f32 = words.trim_end_matches(" m").parse().expect("a number");
-            (place[axis] - metres).abs() <= away_m
-        };
-        places.iter().zip(&words).filter(|(place, words)| at(place, words)).count()
-    };
-    let [x, y] = [along(0, 0.0), along(1, 0.4)];
+    // Those of x are in a row, below, those of y in a column, at the left.
+    let lowest = places.iter().map(|place| place[1]).fold(f32::INFINITY, f32::min);
+    let metres = |words: &str| words.trim_end_matches(" m").parse::<f32>().expect("a number");
+    let (row, column): (Vec<_>, Vec<_>) = places.iter().zip(&words).partition(|(place, _)| place[1] == lowest);
+    let x = row.iter().filter(|(place, words)| place[0] == metres(words)).count();
+    let y = column.iter().filter(|(place, words)| (0.1..0.5).contains(&(place[1] - metres(words))) && place[0] == column[0].0[0]).count();
     assert!((2..=5).contains(&x) && (2..=5).contains(&y) && words.len() == x + y, "{words:?} at {places:?}");
 }
 

@@ -1,8 +1,13 @@
 //! Contract: what is seen belongs to one page and its timelines, arrows stay in the picture, and words say what is the case.
 
+use std::collections::BTreeSet;
+
 use cpdmp::recording::entity_path::{self, Entity};
 use cpdmp::recording::{LiveRecording, write_recording};
 use cpdmp::simulation::RunOutcome;
+use cpdmp::world::{ObjectKind, Quantity};
+use nalgebra::Vector2;
+use rerun::FillMode;
 use rerun::log::Chunk;
 use tempfile::TempDir;
 
@@ -51,6 +56,37 @@ fn a_page_is_empty_on_the_timeline_of_another() {
             }
             assert!(seen > 20, "{page}");
         }
+    }
+}
+
+/// Contract: what hides the paths is translucent, whether the recording grew with its run or not; what hides none is solid, and so is what everything
+/// stands on.
+#[test]
+fn what_hides_the_paths_is_translucent() {
+    let (folder, run) = (TempDir::new().expect("a folder can be made"), outcome());
+    let mut experiment = experiment();
+    let [table, block, hood] = [0, 1, 4].map(|index: usize| experiment.objects[index].name.clone());
+    // A hood over all of it.
+    let inner_size_m = Vector2::new(1.0, 1.0);
+    experiment.objects[4].kind =
+        ObjectKind::Basket { inner_size_m, wall_height_m: 1.0, wall_thickness_m: 0.02, friction: Quantity::Value(0.5) };
+    experiment.objects[4].center_m = Vector2::new(0.6, 0.0);
+    let [whole, live] = ["whole.rrd", "live.rrd"].map(|name| folder.path().join(name));
+    write_recording(&whole, &experiment, &run, "").expect("the recording is written");
+    let recording = LiveRecording::to_file(&live, &experiment);
+    recording.taught(&run.robot, &run.lessons);
+    recording.planned(&RunOutcome { steps: Vec::new(), ..run.clone() });
+    run.steps.iter().for_each(|record| recording.stepped(record));
+    assert!(recording.finish(std::time::Duration::from_secs(60)), "the recording catches up");
+    let fill = rerun::Boxes3D::descriptor_fill_mode().component;
+    for chunks in [chunks(&whole), chunks(&live)] {
+        let fills = |name: &str| -> BTreeSet<u8> {
+            let entity = entity_path::OBJECT_SHAPE.of(&[name, "boxes"]);
+            let of_entity = chunks.iter().filter(|chunk| *chunk.entity_path() == entity);
+            of_entity.flat_map(|chunk| chunk.iter_slices::<u8>(fill).flatten().copied().collect::<Vec<_>>()).collect()
+        };
+        let [solid, translucent] = [FillMode::Solid, FillMode::TransparentFillMajorWireframe].map(|mode| BTreeSet::from([mode as u8]));
+        assert_eq!([fills(&table), fills(&block), fills(&hood)], [solid.clone(), solid, translucent]);
     }
 }
 

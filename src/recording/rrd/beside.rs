@@ -23,8 +23,9 @@ fn named(beside: &[Beside]) -> impl Iterator<Item = (&Beside, meaning::Named)> {
 /// Logs everything that was executed beside the run: where its tool went, in dashes, and the forces.
 pub(super) fn log_all(beside: &[Beside], dashes: &Dashes, recorder: impl Fn(&[StepRecord]) -> Recorder) -> Result<(), Fault> {
     for (number, (one, (color, _))) in named(beside).enumerate() {
-        // Plots draw them by their names, each narrower than the one below.
-        let below = beside.iter().filter(|other| other.name < one.name).count();
+        // Plots draw them in the order of their entities, each narrower than the one below.
+        let entity = |one: &Beside| BESIDE_MOTION.of(&[AXES[0], &one.name]);
+        let below = beside.iter().filter(|other| entity(other) < entity(one)).count();
         let look = (palette::rgb(color), BESIDE_WIDTHS[below.min(BESIDE_WIDTHS.len() - 1)]);
         log_beside(&recorder(&one.outcome.steps), one, look, (Slot::Other(number), dashes))?;
     }

@@ -25,9 +25,6 @@ const VIEWS: [Vector3<f64>; 14] = [
     Vector3::new(-0.2, -0.25, 1.3),
 ];
 
-/// So many places of all ways are looked for, at every moment and from every view: more would take long, and change little.
-const LOOKED_FOR: usize = 160;
-
 /// A later view must show so much more, as a share of all that should be seen.
 const CLEARLY: f64 = 0.05;
 
@@ -65,7 +62,7 @@ impl Camera {
         let ways: Vec<Point3<f64>> = work.places.iter().copied().map(Point3::from).collect();
         let held: Vec<Point3<f64>> = then.iter().flat_map(|then| &then.held).chain(&ways).copied().collect();
         let views = VIEWS.map(|view| Self::holding(&held, view));
-        let some: Vec<Point3<f64>> = ways.iter().step_by(ways.len().div_ceil(LOOKED_FOR).max(1)).copied().collect();
+        let some = work.looked_for();
         let hidden = views.map(|view| then.iter().map(|then| then.hidden(&view.eye, &some)).sum::<f64>() / then.len().max(1) as f64);
         let least = hidden.iter().copied().fold(f64::INFINITY, f64::min);
         let first = hidden.iter().position(|hidden| *hidden <= least + CLEARLY).unwrap_or(0);

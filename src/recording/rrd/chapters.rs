@@ -138,6 +138,11 @@ impl Chapters<'_> {
         see_through::before(camera, &self.work, &Scene { objects, parameters, bodies: &robot.bodies })
     }
 
+    /// The paths of a run should be seen, too, from where the work is looked at.
+    pub fn looks_for(&mut self, outcome: &RunOutcome) {
+        self.work = std::mem::take(&mut self.work).with_paths(outcome);
+    }
+
     /// What the work is looked at with; to find it takes a while, so it is done once.
     pub(super) fn camera(&self, robot: &RobotModel) -> Camera {
         let Experiment { objects, parameters, .. } = self.experiment;

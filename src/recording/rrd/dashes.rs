@@ -10,10 +10,10 @@ use super::paths::pieces;
 use super::recorder::Fault;
 use crate::simulation::StepRecord;
 
-/// How long the part of a way is on which one path may be thick, and how much of it is (m), seen from far. The rest is the executed path's, and so
-/// is every second part.
+/// How long the part of a way is on which one path may be thick (m), seen from far, unless the way is too short for a part of each. So much of it is
+/// thick. The rest is the executed path's, and so is every second part.
 const SLOT_M: f64 = 0.052;
-const DASH_M: f64 = 0.036;
+const DASH: f64 = 0.7;
 
 /// Paths beside the executed one that are there in any case: the plan, what was taught.
 const OWN: usize = 2;
@@ -22,11 +22,10 @@ const OWN: usize = 2;
 const DASH_RADIUS_M: f64 = 0.0092;
 const BETWEEN_M: f64 = 0.0014;
 
-/// The same of taught paths, which are many. They are seen between their dashes only where they are so far from the plan (m), or they would
-/// hide all others there.
-const TAUGHT_RADIUS_M: f64 = 0.0055;
-const TAUGHT_BETWEEN_M: f64 = 0.0012;
+/// Taught paths are many: they have dashes only within such a distance of the plan (m), and are seen from end to end only beyond it, a little
+/// thicker than what is between dashes (m, seen from far).
 const APART_M: f64 = 0.012;
+const TAUGHT_APART_M: f64 = 0.002;
 
 /// A path is at most so much ahead of the plan or behind it, as a share of the time.
 const AHEAD: f64 = 0.12;
@@ -57,8 +56,9 @@ enum Look {
 pub(super) struct Dashes {
     /// How thick lines are, as a share of how thick they are seen from far.
     share: f64,
-    /// How many parts of the way follow each other before they begin anew.
+    /// How many parts of the way follow each other before they begin anew, and how long each is (m).
     slots: usize,
+    slot_m: f64,
     /// The plan: shares of the time, places (m, world), and how far they are along it (m); nothing for one that does not lead through space.
     plan: Vec<(f64, Vector3<f64>, f64)>,
 }
@@ -72,8 +72,10 @@ impl Dashes {
             way_m += before.replace(place).map_or(0.0, |before| (place - before).norm());
             (share, place, way_m)
         };
-        let plan = plan.places().unwrap_or_default().into_iter().map(&mut told).collect();
-        Self { share: camera.share, slots: 2 * (OWN + others), plan }
+        let plan: Vec<_> = plan.places().unwrap_or_default().into_iter().map(&mut told).collect();
+        let slots = 2 * (OWN + others);
+        let slot_m = (SLOT_M * camera.share).min(way_m / slots as f64).max(f64::MIN_POSITIVE);
+        Self { share: camera.share, slots, slot_m, plan }
     }
 
     /// A path that is known as a whole, from its places (m, world) at shares of the time: a thin line with thick dashes.
@@ -102,8 +104,11 @@ impl Dashes {
 
     /// Radius (m) of what looks so.
     fn radius_m(&self, slot: Slot, look: Look) -> f32 {
-        let [dash_m, between_m] = if slot == Slot::Taught { [TAUGHT_RADIUS_M, TAUGHT_BETWEEN_M] } else { [DASH_RADIUS_M, BETWEEN_M] };
-        let radius_m = if look == Look::Dash { dash_m } else { between_m };
+        let radius_m = match (look, slot) {
+            (Look::Dash, _) => DASH_RADIUS_M,
+            (_, Slot::Taught) => TAUGHT_APART_M,
+            _ => BETWEEN_M,
+        };
         (radius_m * self.share) as f32
     }
 
@@ -119,11 +124,13 @@ impl Dashes {
             Slot::Taught => 1,
             Slot::Other(number) => OWN + number,
         };
-        let within_m = way_m / self.share - (2 * number) as f64 * SLOT_M;
-        match within_m.rem_euclid(self.slots as f64 * SLOT_M) < DASH_M {
-            true => Look::Dash,
-            false if slot == Slot::Taught && apart_m < APART_M * self.share => Look::Nothing,
-            false => Look::Between,
+        let within = way_m / self.slot_m - (2 * number) as f64;
+        let has_dash = within.rem_euclid(self.slots as f64) < DASH;
+        match (slot, has_dash, apart_m < APART_M * self.share) {
+            (Slot::Taught, _, false) => Look::Between,
+            (_, true, _) => Look::Dash,
+            (Slot::Taught, false, true) => Look::Nothing,
+            (_, false, _) => Look::Between,
         }
     }
 }
@@ -138,8 +145,13 @@ mod tests {
 
     /// A way of 1 m along y in 1 s, and dashes on it.
     fn dashes(share: f64) -> Dashes {
+        on_way(1.0, share)
+    }
+
+    /// The same on a way of so many metres.
+    fn on_way(way_m: f64, share: f64) -> Dashes {
         let times: Vec<f64> = (0..=1000).map(|i| f64::from(i) * 1e-3).collect();
-        let values = DMatrix::from_fn(1001, 3, |row, column| if column == 1 { row as f64 * 1e-3 } else { 0.0 });
+        let values = DMatrix::from_fn(1001, 3, |row, column| if column == 1 { way_m * row as f64 * 1e-3 } else { 0.0 });
         let plan = Trajectory::new(times, COLUMNS.map(String::from).to_vec(), values).expect("a trajectory");
         let camera = Camera { eye: Vector3::x(), target: Vector3::zeros(), words: 1.0, share };
         Dashes::along(&Path::new(&plan, 1.0), 2, &camera)
@@ -155,8 +167,23 @@ mod tests {
             let thick = |y: f64| SLOTS.map(|slot| dashes.look((y, &Vector3::new(0.002, y, 0.0)), slot) == Look::Dash);
             let along: Vec<[bool; 4]> = (0..1000).map(|i| thick(f64::from(i) * 1e-3)).collect();
             assert!(along.iter().all(|thick| thick.iter().filter(|thick| **thick).count() <= 1));
-            assert!((0..4).all(|slot| along.iter().any(|thick| thick[slot])) && along.contains(&[false; 4]));
+            assert!((0..4).all(|slot| along.iter().any(|thick| thick[slot])));
+            let free = along.iter().filter(|thick| **thick == [false; 4]).count();
+            assert!(free > 550, "more than half of the way is the executed path's: {free}");
         }
+    }
+
+    /// Contract: however short the way is, each path has a dash on it.
+    #[test]
+    fn a_short_way_has_a_dash_of_each() {
+        for way_m in [0.3, 0.05, 0.001] {
+            let dashes = on_way(way_m, 1.0);
+            let has_one = |slot: Slot| {
+                (0..1000).map(|i| f64::from(i) * 1e-3).any(|t| dashes.look((t, &Vector3::new(0.0, way_m * t, 0.0)), slot) == Look::Dash)
+            };
+            assert!(SLOTS.into_iter().all(has_one), "{way_m} m");
+        }
+        assert_ne!(on_way(0.0, 1.0).look((0.5, &Vector3::zeros()), Slot::Planned), Look::Nothing);
     }
 
     /// Contract: what is in one place a little later is thick at the same places.

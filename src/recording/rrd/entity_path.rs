@@ -136,7 +136,7 @@ entities! {
     EVENTS "events" "what happens, in words"
     EVENTS_SO_FAR "events_so_far" "the events until now, the last one first"
     RESULT "result" "how the run ended, and what was asked of it"
-    SCENE_KEY "legends/scene" "what the colours of ellipsoids, arrows and points mean"
+    SCENE_KEY "legends/scene" "what ellipsoids, lines, arrows and points mean, and what the runs beside this one change"
     BESIDE_COLORS "legends/beside" "which colour is the run, and which what was executed beside it"
     ERROR_COLORS "legends/beside_error" "the same of those that expect a force"
     FORCE_COLORS "legends/force" "which colour is which force"

@@ -12,7 +12,8 @@ use crate::simulation::Beside;
 
 /// Titles stand where a legend would cover what is drawn.
 const PATHS: &str = "Taught grey, planned blue, executed orange";
-const PATHS_OF_BASELINE: &str = "Taught grey, planned by the LWR-DMP blue, executed orange; without states, stiff throughout";
+const PATHS_OF_BASELINE: &str = "Taught grey, planned by the LWR-DMP blue, executed orange";
+const WITHOUT_STATES: &str = "; without states, stiff throughout";
 const BASELINE: &str = ", LWR-DMP's plan lime";
 
 /// The scene with the events at the left; motion, forces, compliance and lanes at the right.
@@ -21,7 +22,7 @@ pub(super) fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizont
     // Only the baseline has no states.
     let paths = if shown.states.is_some() { PATHS } else { PATHS_OF_BASELINE };
     let states = shown.states.as_ref().filter(|states| !states.is_empty()).map(|states| format!("; {states}")).unwrap_or_default();
-    let parts = [(paths, true), (&others, true), (BASELINE, shown.baseline), (&states, true)];
+    let parts = [(paths, true), (&others, true), (BASELINE, shown.baseline), (&states, true), (WITHOUT_STATES, shown.states.is_none())];
     let title: String = parts.into_iter().filter_map(|(part, told)| told.then_some(part)).collect();
     let growing = std::iter::once(EXECUTED_PATH.path()).chain(shown.beside.iter().map(|one| BESIDE_PATH.of(&[&one.name])));
     let scene = views.scene(&title, "/world", growing, shown)?;

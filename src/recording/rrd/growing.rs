@@ -93,6 +93,8 @@ impl<'a> Growing<'a> {
         if !self.opened {
             self.chapters.look_at(Workplace::of_plan(&outcome).with_paths(&outcome));
             self.chapters.layout(&outcome.robot, Some(&outcome), false, PlayState::Following)?;
+        } else {
+            self.chapters.looks_for(&outcome);
         }
         self.chapters.skill(&outcome)?;
         self.chapters.key(&outcome, false)?;

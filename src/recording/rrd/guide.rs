@@ -35,8 +35,9 @@ person may push it to where it should go (vermilion arrow). Ellipsoids and ellip
 each state, at two standard deviations.
 
 - grey: taught; blue: planned, what the skill generates for this setting without any force; orange: executed
-- in the scene the executed path is thick, and all others are in places, each where no other is; in the plots of motion each line is narrower than
-  what is drawn below it. So those in one place are all seen. Things that would hide the paths are translucent
+- in the scene the executed path is thick, and all others are thin with thick dashes, each where no other has one; in the plots of motion, where
+  lines lie on each other, the lower one is wider. So those in one place are all seen. Things that would hide the paths of the execution are
+  translucent
 - lime, where nothing was executed beside the run: what plain DMPs by locally weighted regression generate from the same demonstrations, when
   the skill is told parameters: they are not";
 

@@ -12,8 +12,8 @@ use crate::demonstration::Trajectory;
 /// Samples of a taught or planned path that are drawn: a piece of 0.1 s of a movement of 28 s.
 const DRAWN_SAMPLES: usize = 280;
 
-/// Widths of taught lines in the plots of motion (points): they are many, and thin where they do not lie on the plan, at most so far from it (m).
-/// Where they do, they are seen at both sides of it.
+/// Widths of taught lines in the plots of motion (points). They are many, and thin; where they are nearer to the plan than this (m), they are wide
+/// enough to be seen at both sides of it.
 const TAUGHT_WIDTHS: [f32; 2] = [0.8, 10.0];
 const ON_PLAN_M: f64 = 0.003;
 

@@ -38,7 +38,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, 
             path.log_taught(recorder, &entity, axis, plan.as_ref())?;
         }
     }
-    let planned = Path::new(&outcome.plan, outcome.plan.duration_s());
+    let planned = Path::new(&outcome.plan, duration_s);
     if let Some(places) = planned.places() {
         recorder.from(Since::Start, PLANNED_PATH.path(), &dashes.whole(&places, Slot::Planned).with_colors([palette::PLANNED]))?;
     }
@@ -48,7 +48,7 @@ pub(super) fn log_known(recorder: &Recorder, outcome: &RunOutcome, (duration_s, 
     Ok(())
 }
 
-/// Radius of the executed path (m), seen from far: dashes are thicker, and are seen on it.
+/// Radius of the executed path (m), seen from far: dashes are a little thicker, and are seen on it.
 pub(super) const EXECUTED_M: f32 = 0.0075;
 
 /// Logs where the tool went, as a camera sees it.

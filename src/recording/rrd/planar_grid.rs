@@ -15,7 +15,7 @@ const GRID_COLOR: Color = palette::rgb(crate::palette::Rgb::new(205, 205, 205));
 const GRID_PT: f32 = 1.2;
 /// So many metres at most are written along an axis.
 const MOST_NUMBERS: usize = 5;
-/// How far below its place a number is written, as a share of the height of what is seen.
+/// How far below its place a number is written, as a share of the height of the plane.
 const WRITTEN_BELOW: f64 = 0.035;
 
 /// Logs the lines and their numbers.

@@ -30,7 +30,7 @@ pub(super) struct Contacts {
 }
 
 /// Logs the key of the scene. `betas` are those of the states that are drawn, and `listens` tells whether the coupling is on. What touches is judged
-/// when the run is over, `None` before; then it is known what stands beside it, too.
+/// when the run is over; `None` before.
 pub(super) fn log_key(
     recorder: &Recorder,
     told: Told,
@@ -43,7 +43,7 @@ pub(super) fn log_key(
         lines.push(format!("Ellipsoids, ellipses: states, {}{off}; thick: active", colors_of(betas).join(", ")));
     }
     let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("person vermilion", told.person)];
-    lines.push("Lines: executed thick, others in places".to_owned());
+    lines.push("Lines: executed thick, others thin with thick dashes".to_owned());
     lines.push(format!("Arrows, forces: {}", those(&arrows)));
     match contacts {
         None => lines.push("White points: contacts; which are forbidden is told when the run is over".to_owned()),

@@ -1,6 +1,6 @@
 //! Where the work is done: what a scene is looked at for.
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 
 use super::paths::COLUMNS;
 use crate::demonstration::Trajectory;
@@ -9,6 +9,9 @@ use crate::simulation::{LessonRecord, RunOutcome, StepRecord};
 /// Moments that are kept, spread over the work, and places of each way.
 const MOMENTS: usize = 8;
 const PLACES: usize = 40;
+
+/// So many places of all ways are looked for, at every moment and from every view: more would take long, and change little.
+const LOOKED_FOR: usize = 160;
 
 /// Where the tool is at some moment (m, world), and the poses of the objects and of the robot's bodies then, as far as they are known.
 #[derive(Clone, Debug, Default)]
@@ -55,6 +58,12 @@ impl Workplace {
             self.places.extend(spread(way, PLACES));
         }
         self
+    }
+
+    /// Some of the places, evenly spread: those that are looked for from every view.
+    pub fn looked_for(&self) -> Vec<Point3<f64>> {
+        let every = self.places.len().div_ceil(LOOKED_FOR).max(1);
+        self.places.iter().step_by(every).copied().map(Point3::from).collect()
     }
 
     /// Of the lessons.
