@@ -80,8 +80,7 @@ fn the_key_of_force_errors_leaves_out_who_expects_no_force() {
     assert_eq!(key(&entity_path::BESIDE_COLORS), "orange: executed\n\nmagenta: uncoupled\n\nbrown: blind");
     assert_eq!(key(&entity_path::ERROR_COLORS), "orange: executed\n\nbrown: blind");
     assert!(
-        key(&entity_path::SCENE_KEY)
-            .ends_with("\nuncoupled: another run, coupling.enabled=false\nblind: another run, coupling.enabled=false"),
+        key(&entity_path::SCENE_KEY).ends_with("\nOther runs: uncoupled (coupling.enabled=false), blind (coupling.enabled=false)"),
         "what each changes"
     );
 }

@@ -92,9 +92,10 @@ pub(super) fn in_words(beside: &[Beside]) -> String {
     named(beside).map(line).collect()
 }
 
-/// One of them in a line of the key: what it changes.
-pub(super) fn in_short(one: &Beside) -> String {
-    format!("{}: another run, {}", one.name, one.changes.join(", "))
+/// The same in a line of the key; none without any.
+pub(super) fn in_short(beside: &[Beside]) -> Option<String> {
+    let each: Vec<String> = beside.iter().map(|one| format!("{} ({})", one.name, one.changes.join(", "))).collect();
+    (!each.is_empty()).then(|| format!("Other runs: {}", each.join(", ")))
 }
 
 /// The same for a title.

@@ -29,7 +29,7 @@ pub(super) fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizont
     let axes = axes(&shown.way_m);
     let [first, second] = [views.motion(axes[0], &others)?, views.motion(axes[1], &others)?];
     let mut right: Vec<ContainerLike> = vec![first.into(), second.into(), Tabs::new(more(views, axes, shown)?).into()];
-    let mut shares = vec![1.0, 1.0, 1.4];
+    let mut shares = vec![1.0, 1.0, 1.55];
     if shown.states.is_some() {
         let unit = shown.spread_unit;
         let title = format!("How far demonstrations disagree in the active state (orange), threshold sigma (white); {unit}");

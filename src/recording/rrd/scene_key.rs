@@ -40,10 +40,10 @@ pub(super) fn log_key(
     let mut lines = Vec::new();
     if !betas.is_empty() {
         let off = if listens || betas.iter().all(|beta| *beta == 0.0) { "" } else { ", but the coupling is off" };
-        lines.push(format!("Ellipsoids, ellipses: states, {}{off}; thick: active", colors_of(betas).join(", ")));
+        lines.push(format!("Ellipsoids, ellipses: states, {}{off}; the active one thick", colors_of(betas).join(", ")));
     }
     let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("person vermilion", told.person)];
-    lines.push("Lines: executed thick, others thin with thick dashes".to_owned());
+    lines.push("Lines: executed thick, others dashed".to_owned());
     lines.push(format!("Arrows, forces: {}", those(&arrows)));
     match contacts {
         None => lines.push("White points: contacts; which are forbidden is told when the run is over".to_owned()),
@@ -53,7 +53,7 @@ pub(super) fn log_key(
             lines.extend(near.then(|| format!("White line: smallest distance below {:.0} cm", NEAR_M * 1e2)));
         }
     }
-    lines.extend(beside.iter().map(beside::in_short));
+    lines.extend(beside::in_short(beside));
     recorder.always(SCENE_KEY.path(), &TextDocument::new(lines.join("\n")))
 }
 
