@@ -7,7 +7,7 @@ use super::mark::Mark;
 use super::transitions::chain_name;
 use crate::math::covariance_outline;
 use crate::palette::GREY;
-use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, StateGaussian, named};
+use crate::planar::{ForcingCurve, Guidance, Method, Obstacle, PlanarOutcome, StateGaussian, obstacles};
 
 /// Width and height of a panel (pt): of one for all situations, and of one of several.
 const PANEL_PT: [f64; 2] = [560.0, 230.0];
@@ -29,14 +29,13 @@ pub fn planar_forcing(title: &str, outcome: &PlanarOutcome, guidance: Guidance, 
     let both = |title: &str, own: &[&ForcingCurve], demonstrated: &[&ForcingCurve]| {
         AXES.map(|(axis, name)| Chart { title: title.to_owned(), ..panel(name, axis, method, own, demonstrated) })
     };
-    let mut widths: Vec<(f64, bool)> = own.iter().filter_map(|curve| Some((curve.half_width_m()?, curve.taught))).collect();
-    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    widths.dedup();
+    let mut widths = obstacles(&outcome.cases);
+    widths.retain(|one| own.iter().any(|curve| curve.half_width_m() == Some(one.half_width_m())));
     if widths.len() < 2 {
         return Figure { title: title.to_owned(), panels: both("", &own, &demonstrated).into(), columns: 1, panel_size_pt: PANEL_PT };
     }
-    let panels =
-        widths.iter().flat_map(|(width, taught)| both(&named(*width, *taught), &of_width(&own, *width), &of_width(&demonstrated, *width)));
+    let of = |one: &Obstacle| both(&one.name(), &of_width(&own, one.half_width_m()), &of_width(&demonstrated, one.half_width_m()));
+    let panels = widths.iter().flat_map(of);
     Figure { title: title.to_owned(), panels: panels.collect(), columns: 2, panel_size_pt: SMALL_PANEL_PT }
 }
 

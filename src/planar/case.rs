@@ -65,6 +65,16 @@ pub struct Case {
 }
 
 impl Case {
+    /// What it is beside the demonstrated ones: `taught`, `new` (between them) or `beyond` (outside of them).
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match (self.taught, self.extrapolation > 0.0) {
+            (true, _) => "taught",
+            (false, false) => "new",
+            (false, true) => "beyond",
+        }
+    }
+
     /// The movements of one method.
     pub fn of(&self, method: Method) -> impl Iterator<Item = &Movement> {
         self.movements.iter().filter(move |movement| movement.method == method)

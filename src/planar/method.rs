@@ -126,4 +126,14 @@ impl Guidance {
             Self::WithoutSide => "without_side",
         }
     }
+
+    /// What the models are told of the side, in words; none where the task leaves no choice of it.
+    #[must_use]
+    pub fn told(self) -> Option<&'static str> {
+        match self {
+            Self::OneSide => None,
+            Self::WithSide => Some("side told"),
+            Self::WithoutSide => Some("side not told"),
+        }
+    }
 }

@@ -29,7 +29,7 @@ pub use forcing::{ForcingCurve, StateGaussian, demonstrated_forcing, forcing_cur
 pub use hand::{COLUMNS, HandPath, HandSettings};
 pub use method::{Guidance, Method, Side, chain_color};
 pub use obstacle_avoidance::{ObstacleAvoidanceSettings, obstacle_avoidance};
-pub use obstacles::{Obstacle, named, obstacles, rank};
+pub use obstacles::{Obstacle, obstacles, rank};
 pub use outcome::{LearnedSkill, ModelReport, PlanarOutcome, Shown, Transitions};
 pub use two_sided_obstacle::two_sided_obstacle;
 pub use two_sided_settings::TwoSidedObstacleSettings;

@@ -14,6 +14,8 @@ pub struct Obstacle {
     pub ellipse: Ellipse,
     /// Whether it was demonstrated how to pass it.
     pub taught: bool,
+    /// What it is beside those that were demonstrated, see [`Case::kind`].
+    pub kind: &'static str,
     /// Its colour with the colour's name; none when it is the only one, which needs none.
     pub look: Option<(Rgb, &'static str)>,
 }
@@ -25,17 +27,17 @@ impl Obstacle {
         self.look.map(|(color, _)| color)
     }
 
+    /// Half its width (m).
+    #[must_use]
+    pub fn half_width_m(&self) -> f64 {
+        self.ellipse.half_axes_m[0]
+    }
+
     /// What it is called among others: `half width 1.5 m, new`.
     #[must_use]
     pub fn name(&self) -> String {
-        named(self.ellipse.half_axes_m[0], self.taught)
+        format!("half width {} m, {}", self.half_width_m(), self.kind)
     }
-}
-
-/// What an obstacle of this half width (m) is called.
-#[must_use]
-pub fn named(half_width_m: f64, taught: bool) -> String {
-    format!("half width {half_width_m} m, {}", if taught { "taught" } else { "new" })
 }
 
 /// How many of the obstacles that are taught as this one is, or new as it is, are narrower.
@@ -52,7 +54,7 @@ pub fn obstacles<'a>(cases: impl IntoIterator<Item = &'a Case>) -> Vec<Obstacle>
     let mut all: Vec<Obstacle> = Vec::new();
     for case in cases {
         if all.iter().all(|known| known.ellipse != case.obstacle) {
-            all.push(Obstacle { ellipse: case.obstacle, taught: case.taught, look: None });
+            all.push(Obstacle { ellipse: case.obstacle, taught: case.taught, kind: case.kind(), look: None });
         }
     }
     all.sort_by(|a, b| a.ellipse.half_axes_m[0].total_cmp(&b.ellipse.half_axes_m[0]));

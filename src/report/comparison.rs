@@ -91,14 +91,6 @@ fn methods_of(cases: &[&Case]) -> Vec<Method> {
     methods
 }
 
-fn kind(case: &Case) -> &'static str {
-    match (case.taught, case.extrapolation > 0.0) {
-        (true, _) => "taught",
-        (false, false) => "new",
-        (false, true) => "beyond",
-    }
-}
-
 fn finite(number: f64) -> Option<f64> {
     number.is_finite().then_some(number)
 }
@@ -107,7 +99,7 @@ fn setting(case: &Case) -> SettingReport {
     SettingReport {
         name: case.name.clone(),
         guidance: case.guidance.key(),
-        kind: kind(case),
+        kind: case.kind(),
         extrapolation: finite(case.extrapolation),
         ideal_clearance_m: case.ideals.iter().map(|ideal| ideal.clearance_m).reduce(f64::min),
         winner: case.winner.map(Method::key),

@@ -17,7 +17,7 @@ pub fn summary(report: &RunReport, description: &str) -> String {
         lines.extend((!names.is_empty()).then(|| format!("{title}: {}", names.join(", "))));
     };
     list("fail, as expected", &|criterion| (criterion.required && !criterion.passed).then(|| criterion.name.clone()));
-    list("not demanded", &|criterion| (!criterion.required).then(|| format!("{} {}", criterion.name, verdict::words(criterion))));
+    list("only reported", &|criterion| (!criterion.required).then(|| format!("{} ({})", criterion.name, verdict::words(criterion))));
     list(verdict::OK, &|criterion| (criterion.required && criterion.passed).then(|| criterion.name.clone()));
     // What a planar experiment touches is in its comparison.
     let refused = report.collisions.iter().filter(|contact| !contact.allowed).count();

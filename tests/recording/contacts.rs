@@ -72,7 +72,7 @@ fn contacts_are_seen_as_long_as_they_last() {
             let now = ns(step.time_s);
             assert_eq!((at(&marks, now).len(), at(&said, now).len()), (shown, shown), "{} s: {contact:?}", step.time_s);
         }
-        let words = format!("{} touches {}: up to {:.1} N", contact.a, contact.b, contact.max_force_n);
+        let words = format!("{} touches {}: peak {:.1} N", contact.a, contact.b, contact.max_force_n);
         assert!(said[0].1[0].starts_with(&words) && marks[0].1 == [place(&contact.deepest_point)], "{said:?}, {marks:?}, {contact:?}");
     }
 }
@@ -99,10 +99,21 @@ fn a_pair_that_touches_again_is_told_again() {
     let [from, until, gone] = [4.0, 4.1, 4.9].map(|later_s| ns(last.time_s + later_s));
     let marks = points(&chunks, &marks);
     assert_eq!(marks[marks.len() - 2..], [(from, vec![place(&point)]), (gone, vec![])]);
-    let words = format!("{} touches {}: up to 3.5 N, 1.2 mm deep", contact.a, contact.b);
+    let words = format!("{} touches {}: peak 3.5 N, 1.2 mm deep", contact.a, contact.b);
     assert_eq!(at(&labels(&chunks, &said), from), [words]);
     let events = texts(&chunks, &entity_path::EVENTS, &rerun::TextLog::descriptor_text());
     let told = |time: i64, what: &str| events.iter().any(|(at, text)| *at == time && text.ends_with(what));
     assert!(told(from, &format!("{} touches {}", contact.a, contact.b)), "{events:?}");
-    assert!(told(until, &format!("{} no longer touches {}: up to 3.5 N, 1.2 mm deep", contact.a, contact.b)), "{events:?}");
+    let over = format!("{} touched {} from {:.2} s: peak 3.5 N, 1.2 mm deep", contact.a, contact.b, last.time_s + 4.0);
+    assert!(told(until, &over), "{events:?}");
+    // Beside the scene a touch that is over is one line.
+    let until_now = texts(&chunks, &entity_path::EVENTS_SO_FAR, &rerun::TextDocument::descriptor_text());
+    let lines = |time: i64| -> Vec<String> {
+        let (_, page) = until_now.iter().rfind(|(at, _)| *at <= time).expect("a page");
+        page.lines().filter(|line| line.contains(&contact.a) && line.contains(&contact.b)).map(str::to_owned).collect()
+    };
+    let begun = format!("ERROR {:.2} s: {} touches {}", last.time_s + 4.0, contact.a, contact.b);
+    assert_eq!(lines(from)[0], begun);
+    assert_eq!(lines(until)[0], format!("ERROR {:.2} s: {over}", last.time_s + 4.1));
+    assert!(!lines(until).contains(&begun), "{:?}", lines(until));
 }

@@ -10,6 +10,7 @@ use std::sync::LazyLock;
 use cpdmp::planar::{
     Guidance, Method, ObstacleAvoidanceSettings, PlanarOutcome, TwoSidedObstacleSettings, obstacle_avoidance, two_sided_obstacle,
 };
+use cpdmp::recording::entity_path::Entity;
 use cpdmp::recording::planar_entity::{self, ENTITIES, PHASE_INPUT};
 use cpdmp::recording::write_planar_recording;
 use nalgebra::{Matrix2, Vector2};
@@ -43,11 +44,11 @@ fn recorded(outcome: &PlanarOutcome) -> Vec<Chunk> {
     data.collect()
 }
 
-/// What the page in a recording says.
-fn guide(chunks: &[Chunk]) -> String {
+/// What a page in a recording says.
+fn page(chunks: &[Chunk], entity: &Entity) -> String {
     let text = rerun::TextDocument::descriptor_text().component;
-    let of_guide = chunks.iter().filter(|chunk| *chunk.entity_path() == planar_entity::GUIDE.path());
-    of_guide.flat_map(|chunk| chunk.iter_slices::<String>(text).flatten().map(|words| words.to_string()).collect::<Vec<_>>()).collect()
+    let of_page = chunks.iter().filter(|chunk| *chunk.entity_path() == entity.path());
+    of_page.flat_map(|chunk| chunk.iter_slices::<String>(text).flatten().map(|words| words.to_string()).collect::<Vec<_>>()).collect()
 }
 
 /// The rows of scalars of an entity: time on the timeline, values.
@@ -136,8 +137,7 @@ fn some_metres_are_written_where_they_are() {
 /// Contract: the page says how to read what is in the recording, and nothing of what is not.
 #[test]
 fn the_page_says_what_is_shown() {
-    let two_sided = guide(&RECORDED.1);
-    assert!(two_sided.starts_with("**made\\_up\\, seed 0\\: passed**; "), "{two_sided}");
+    let two_sided = page(&RECORDED.1, &planar_entity::GUIDE);
     for (said, there) in
         [("each chain has a colour", true), ("wider obstacles", true), ("Each width", true), ("yellow ones", false), ("(4)", false)]
     {
@@ -146,12 +146,38 @@ fn the_page_says_what_is_shown() {
     let mut settings = ObstacleAvoidanceSettings::default();
     (settings.learning.motion.states, settings.learning.motion.max_iterations) = (4, 20);
     let outcome = obstacle_avoidance(&settings, 0, &|| true).expect("it can be learned");
-    let one_sided = guide(&recorded(&outcome));
-    let absent = ["chain", "Each width", "wider obstacles", "transitions", "(4)"].map(|said| (said, false));
+    let chunks = recorded(&outcome);
+    let one_sided = page(&chunks, &planar_entity::GUIDE);
+    assert!(!page(&chunks, &planar_entity::CONTENTS).contains("transitions"));
+    let absent = ["chain", "Each width", "wider obstacles", "(4)"].map(|said| (said, false));
     let shown = ["blue: CPDMP; orange: LWR-DMP", "yellow ones", "Thick lines", "Thin ellipses"].map(|said| (said, true));
     for (said, there) in absent.into_iter().chain(shown) {
         assert_eq!(one_sided.contains(said), there, "{said}: {one_sided}");
     }
+}
+
+/// Contract: the result names every movement that touches the obstacle, and no other; the page of clearances has every situation with every method.
+#[test]
+fn the_result_says_what_collides() {
+    let (outcome, chunks) = &*RECORDED;
+    let result = page(chunks, &planar_entity::RESULT).replace('\\', "");
+    assert!(result.starts_with("**made_up, seed 0: passed**; "), "{result}");
+    let (_, said) = result.split_once("Collisions: ").expect("they are told");
+    let clearances = page(chunks, &planar_entity::CLEARANCES);
+    let (mut colliding, mut clear) = (0, 0);
+    for case in &outcome.cases {
+        let told = case.guidance.told().expect("the side is told, or not");
+        let of_case = said.split("; ").find_map(|part| part.strip_prefix(&format!("{} ({told}, {}): ", case.name, case.kind())));
+        let named: BTreeSet<&str> = of_case.map(|methods| methods.trim().split(", ").collect()).unwrap_or_default();
+        let collides: BTreeSet<&str> = case.movements.iter().filter(|one| one.collides).map(|one| one.method.title()).collect();
+        assert_eq!(named, collides, "{}: {said}", case.name);
+        (colliding, clear) = (colliding + usize::from(!collides.is_empty()), clear + usize::from(collides.is_empty()));
+        let line = clearances.lines().find(|line| line.starts_with(&format!("- `{}` ({told}, ", case.name))).expect("a line");
+        assert!(case.movements.iter().all(|one| line.contains(&format!("{:.2} m", one.clearance_m))), "{line}");
+    }
+    assert!(colliding > 0 && clear > 0, "{said}");
+    let kinds: BTreeSet<&str> = outcome.cases.iter().map(|case| case.kind()).collect();
+    assert_eq!(kinds, ["beyond", "new", "taught"].into());
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::camera::Camera;
 
 /// Length of an arrow per newton (m/N) up to the force that a helping person pushes with at most (N): 30 cm.
 const LENGTH_M_PER_N: f64 = 0.02;
-const LINEAR_N: f64 = 15.0;
+pub(super) const LINEAR_N: f64 = 15.0;
 
 /// No arrow is longer than this (m): a blow of a hundred newtons would leave the picture.
 const LONGEST_M: f64 = 0.35;

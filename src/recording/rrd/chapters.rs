@@ -84,7 +84,7 @@ impl Chapters<'_> {
         state_figure::log_active(&recorder, self.experiment, outcome, records, (self.duration_s, &camera))?;
         force_figure::log_forces(&recorder, records, self.told(outcome), &camera)?;
         contact_figure::log_touches(&recorder, outcome, records)?;
-        lanes::log_lanes(&recorder, records, &task_states::betas(self.experiment, &outcome.skill)?)?;
+        lanes::log_lanes(&recorder, records, &outcome.skill, &task_states::betas(self.experiment, &outcome.skill)?)?;
         spread_figure::log_spread(&recorder, &outcome.skill, records)?;
         events::log_events(&recorder, outcome, records.first().filter(|_| from > 0).map(|record| record.time_s))
     }

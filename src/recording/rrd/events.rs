@@ -13,6 +13,8 @@ use crate::world::{ContactEpisode, NEAR_M, nearest_of_each};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Event {
     pub time_s: f64,
+    /// From when on a later event tells it, too (s).
+    pub told_until_s: f64,
     pub kind: Kind,
     pub text: String,
 }
@@ -59,7 +61,8 @@ fn until(events: &[Event], time_s: f64) -> String {
         Kind::Note => format!("{:.2} s: {}", event.time_s, event.text),
         Kind::Fault => format!("ERROR {:.2} s: {}", event.time_s, event.text),
     };
-    let past: Vec<String> = events.iter().rev().filter(|event| event.time_s <= time_s).map(line).collect();
+    let told = |event: &&Event| event.time_s <= time_s && time_s < event.told_until_s;
+    let past: Vec<String> = events.iter().rev().filter(told).map(line).collect();
     let mut used = 0;
     let has_room = |line: &&String| {
         used += line.chars().count().div_ceil(CHARACTERS);
@@ -74,7 +77,7 @@ fn until(events: &[Event], time_s: f64) -> String {
 pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
     let records = &outcome.steps;
     let mut events = Vec::new();
-    let note = |time_s: f64, text: String| Event { time_s, kind: Kind::Note, text };
+    let note = |time_s: f64, text: String| Event { time_s, told_until_s: f64::INFINITY, kind: Kind::Note, text };
     if let Some(first) = records.first() {
         events.push(note(first.time_s, format!("the skill starts, {}", beta_in_words(first.acting_beta()))));
     }
@@ -89,6 +92,10 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
         let text = format!("closest to {}: {} at {:.0} mm", clearance.b, clearance.a, clearance.min_distance_m * 1e3);
         events.push(note(clearance.time_s, text));
     }
+    // What lies on something from the first step on is no event.
+    let begins = |contact: &&ContactEpisode| contact.allowed && records.get(1).is_some_and(|early| contact.first_time_s > early.time_s);
+    let begun = outcome.collisions.iter().filter(begins);
+    events.extend(begun.map(|contact| note(contact.first_time_s, format!("{} touches {}", contact.a, contact.b))));
     let refused = outcome.collisions.iter().enumerate().filter(|(_, contact)| !contact.allowed);
     events.extend(refused.flat_map(|(index, contact)| touches(records, index, contact)));
     events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
@@ -98,7 +105,7 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
 /// What two parts that must not touch do: when they begin, and, when it is over, how hard and deep it was.
 fn touches(records: &[StepRecord], index: usize, contact: &ContactEpisode) -> Vec<Event> {
     let (a, b) = (&contact.a, &contact.b);
-    let fault = |time_s: f64, text: String| Event { time_s, kind: Kind::Fault, text };
+    let fault = |time_s: f64, text: String| Event { time_s, told_until_s: f64::INFINITY, kind: Kind::Fault, text };
     let all = stretches(records, index);
     if all.is_empty() {
         // It was after the last record.
@@ -109,9 +116,10 @@ fn touches(records: &[StepRecord], index: usize, contact: &ContactEpisode) -> Ve
     let told = |stretch: &Stretch| match stretch.hard_and_deep() {
         how if stretch.from_s == stretch.until_s => vec![fault(stretch.from_s, format!("{a} touches {b}{how}"))],
         how => {
-            let (kind, over) = if stretch.until_s < end_s { (Kind::Note, "no longer touches") } else { (Kind::Fault, "still touches") };
-            let over = Event { time_s: stretch.until_s, kind, text: format!("{a} {over} {b}{how}") };
-            vec![fault(stretch.from_s, format!("{a} touches {b}")), over]
+            let (from_s, until_s) = (stretch.from_s, stretch.until_s);
+            let begins = Event { told_until_s: until_s, ..fault(from_s, format!("{a} touches {b}")) };
+            let over = if until_s < end_s { format!("touched {b} from {from_s:.2} s") } else { format!("touches {b} since {from_s:.2} s") };
+            vec![begins, fault(until_s, format!("{a} {over}{how}"))]
         }
     };
     all.iter().flat_map(told).collect()

@@ -33,10 +33,11 @@ pub(super) fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizont
     if shown.states.is_some() {
         let unit = shown.spread_unit;
         let title = format!("How far demonstrations disagree in the active state (orange), threshold sigma (white); {unit}");
-        right.push(views.low_plot(&title, "plots/spread")?.into());
+        right.push(views.bounded_plot(&title, "plots/spread")?.into());
         shares.push(0.7);
     }
-    let lanes = if shown.states.is_some() { "Compliance, gripper, person, state" } else { "Compliance, gripper, person" };
+    let lanes = [("Compliance", true), (", gripper", shown.gripper), (", person", true), (", state", shown.states.is_some())];
+    let lanes: String = lanes.into_iter().filter_map(|(lane, there)| there.then_some(lane)).collect();
     right.push(StateTimelineView::new(lanes).with_origin("/lanes").into());
     shares.push(1.5);
     let left = Vertical::new([scene.into(), below_the_scene(views)?.into()]).with_row_shares(vec![2.95, 1.0]);

@@ -5,6 +5,7 @@ use rerun::{Color, StateChange, StateConfiguration};
 use super::entity_path::{COMPLIANCE_LANE, Entity, GRIPPER_LANE, PERSON_LANE, STATE_LANE};
 use super::palette;
 use super::recorder::{Fault, Recorder};
+use crate::learning::Skill;
 use crate::simulation::{AppliedForce, StepRecord};
 
 /// Whether the person holds the arm.
@@ -39,8 +40,15 @@ const OVER: &str = "over";
 /// What a lane may show, and in which colour.
 type Legend = Vec<(String, Color)>;
 
-/// Logs all lanes; that of the states only for a skill that has some, with these betas.
-pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], betas: &[f64]) -> Result<(), Fault> {
+/// Whether a skill closes or opens the gripper: a hand that stays as it is has no lane.
+pub(super) fn grips(skill: &Skill) -> bool {
+    let openings = skill.gripper.iter().flat_map(|gripper| &gripper.openings);
+    let [closed, open] = openings.fold([false; 2], |[closed, open], opening| [closed || *opening < CLOSED, open || *opening >= CLOSED]);
+    closed && open
+}
+
+/// Logs all lanes; those of states and gripper only for a skill that has some, with these betas, and that moves it.
+pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], skill: &Skill, betas: &[f64]) -> Result<(), Fault> {
     let lane = |entity: &Entity, legend: Legend, value: &dyn Fn(&StepRecord) -> String| {
         let values: Vec<String> = records.iter().map(value).collect();
         let changed = |i: &usize| *i == 0 || values[*i] != values[i - 1];
@@ -61,6 +69,9 @@ pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], betas: &[f6
         lane(&STATE_LANE, legend, &|r| if r.is_over() { OVER.to_owned() } else { r.state.to_string() })?;
     }
     lane(&PERSON_LANE, of_two(("holds", palette::PERSON), "hands off"), &|r| pick(holds(r), "holds", "hands off"))?;
+    if !grips(skill) {
+        return Ok(());
+    }
     let closed = |r: &StepRecord| r.gripper_command < CLOSED;
     lane(&GRIPPER_LANE, of_two(("closed", palette::EXECUTED), "open"), &|r| pick(closed(r), "closed", "open"))
 }

@@ -25,5 +25,8 @@ entities! {
         "states of the model in a situation as thin ellipses at two standard deviations, upper and lower halves (m)"
     CURVE "forcing/{told}/{method}/{axis}/curves/{situation}" "forcing term of the model in a situation, a thick line (m)"
     GRAPH "transitions" "which state of the model that is not told the side follows which, each chain in a colour"
+    RESULT "result" "how the experiment ended: its criteria, and which movements collide"
+    CLEARANCES "clearances" "what every method makes of every situation, and how often each transition of the graph is taken"
     GUIDE "guide" "how to read this recording"
+    CONTENTS "contents" "its timeline and its entities"
 }

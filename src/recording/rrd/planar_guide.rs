@@ -1,50 +1,76 @@
-//! A page in the recording that says how its experiment ended, and how to read it.
+//! Pages in the recording of a planar experiment: how it ended, the clearance of every movement, how to read what is shown, and what is in it.
 
 use rerun::TextDocument;
 
 use super::entity_path::Entity;
-use super::planar_entity::{ENTITIES, GRAPH, GUIDE, PHASE_INPUT};
+use super::planar_entity::{CLEARANCES, CONTENTS, ENTITIES, GRAPH, GUIDE, PHASE_INPUT, RESULT};
 use super::planar_reading::reading;
 use super::planar_recorder::PlanarRecorder;
 use super::recorder::Fault;
-use crate::planar::{Case, PlanarOutcome, Transitions};
+use crate::planar::{Case, Movement, PlanarOutcome, Transitions};
 
-/// Logs the page; `result` says how the experiment ended, its first line what it is called.
+/// Logs the pages; `result` says how the experiment ended, its first line what it is called.
 pub(super) fn log_guide(recorder: &PlanarRecorder, outcome: &PlanarOutcome, result: &str) -> Result<(), Fault> {
+    let page = |entity: &Entity, words: String| recorder.always(entity.path(), &TextDocument::from_markdown(words));
+    page(&RESULT, ending(outcome, result))?;
+    page(&CLEARANCES, clearances(outcome))?;
+    page(&GUIDE, reading(outcome))?;
+    page(&CONTENTS, contents(outcome))
+}
+
+/// How the experiment ended, and what collides.
+fn ending(outcome: &PlanarOutcome, result: &str) -> String {
     let (headline, answers) = result.split_once('\n').unwrap_or((result, ""));
-    let (headline, answers) = (literal(headline), literal(answers).replace('\n', "  \n"));
-    let mut page = format!("**{headline}**; {} demonstrations\n\n{answers}\n\n{}\n\n", outcome.demonstrations.len(), reading(outcome));
-    page.push_str("## Clearances\n\n");
-    page.extend(outcome.cases.iter().map(clearances));
+    let collisions: Vec<String> = outcome.cases.iter().filter_map(collisions).collect();
+    let collide = if collisions.is_empty() { "none".to_owned() } else { collisions.join("; ") };
+    let (headline, answers, collide) = (literal(headline), literal(answers).replace('\n', "  \n"), literal(&collide));
+    format!("**{headline}**; {} demonstrations\n\n{answers}\n\nCollisions: {collide}\n", outcome.demonstrations.len())
+}
+
+/// Which methods collide in a situation.
+fn collisions(case: &Case) -> Option<String> {
+    let colliding: Vec<&str> = case.movements.iter().filter(|movement| movement.collides).map(|movement| movement.method.title()).collect();
+    (!colliding.is_empty()).then(|| format!("{} ({}{}): {}", case.name, told(case), case.kind(), colliding.join(", ")))
+}
+
+/// `side told, `, where there are sides.
+fn told(case: &Case) -> String {
+    case.guidance.told().map_or_else(String::new, |told| format!("{told}, "))
+}
+
+/// What every method makes of every situation, in a line each, and the shares of the graph's transitions.
+fn clearances(outcome: &PlanarOutcome) -> String {
+    let mut page = "Smallest distance of each movement to the obstacle; below 0 m it is inside.\n\n".to_owned();
+    for case in &outcome.cases {
+        let each: Vec<String> = case.movements.iter().map(clearance).collect();
+        page.push_str(&format!("- `{}` ({}{}): {}\n", case.name, told(case), case.kind(), each.join("; ")));
+    }
     page.extend(outcome.transitions.iter().map(shares));
-    page.push_str(&format!("\n## Timeline\n\n- `{}`: {}\n\n## Entities\n\n", PHASE_INPUT.name, PHASE_INPUT.meaning));
-    let there = |entity: &&Entity| entity.pattern != GRAPH.pattern || outcome.transitions.is_some();
-    page.extend(ENTITIES.iter().filter(there).map(|entity| format!("- `{}`: {}\n", entity.pattern, entity.meaning)));
-    recorder.always(GUIDE.path(), &TextDocument::from_markdown(page))
+    page
 }
 
-/// Words that mean in Markdown what they say.
-fn literal(words: &str) -> String {
-    words.chars().flat_map(|c| c.is_ascii_punctuation().then_some('\\').into_iter().chain([c])).collect()
-}
-
-/// What every method makes of a situation, in a line.
-fn clearances(case: &Case) -> String {
-    let each: Vec<String> = case
-        .movements
-        .iter()
-        .map(|movement| {
-            let hit = if movement.collides { ", collides" } else { "" };
-            let chain = movement.chain.map_or_else(String::new, |chain| format!(" ({})", chain + 1));
-            format!("{}{chain} {:.2} m{hit}", movement.method.title(), movement.clearance_m)
-        })
-        .collect();
-    let told = if case.taught { "taught" } else { "unseen" };
-    format!("- `{}` ({}, {told}): {}\n", case.name, case.guidance.key().replace('_', " "), each.join("; "))
+/// What a method makes of a situation.
+fn clearance(movement: &Movement) -> String {
+    let hit = if movement.collides { ", collides" } else { "" };
+    let chain = movement.chain.map_or_else(String::new, |chain| format!(" ({})", chain + 1));
+    format!("{}{chain} {:.2} m{hit}", movement.method.title(), movement.clearance_m)
 }
 
 /// How often each transition of the graph is taken.
 fn shares(transitions: &Transitions) -> String {
     let edges = transitions.graph.edges.iter().map(|edge| format!("{} to {}: {:.2}", edge.from, edge.to, edge.probability));
-    format!("\n## Shares of departures in the transition graph\n\n{}\n", edges.collect::<Vec<_>>().join("; "))
+    format!("\nShares of departures in the transition graph: {}\n", edges.collect::<Vec<_>>().join("; "))
+}
+
+/// The timeline and the entities of the recording.
+fn contents(outcome: &PlanarOutcome) -> String {
+    let mut page = format!("Timeline:\n\n- `{}`: {}\n\nEntities:\n\n", PHASE_INPUT.name, PHASE_INPUT.meaning);
+    let there = |entity: &&Entity| entity.pattern != GRAPH.pattern || outcome.transitions.is_some();
+    page.extend(ENTITIES.iter().filter(there).map(|entity| format!("- `{}`: {}\n", entity.pattern, entity.meaning)));
+    page
+}
+
+/// Words that mean in Markdown what they say.
+fn literal(words: &str) -> String {
+    words.chars().flat_map(|c| c.is_ascii_punctuation().then_some('\\').into_iter().chain([c])).collect()
 }

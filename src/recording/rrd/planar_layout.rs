@@ -1,5 +1,5 @@
-//! The layout that the recording of a planar experiment opens with: the plane at the left, a view per method; forcing terms, the transition
-//! graph and the guide at the right.
+//! The layout that the recording of a planar experiment opens with: the plane at the left, a view per method, and below it how to read it; forcing
+//! terms, the transition graph and the result at the right.
 
 use rerun::blueprint::components::{BackgroundKind, LinkAxis, PanelState, PlayState};
 use rerun::blueprint::{
@@ -10,7 +10,8 @@ use rerun::datatypes::{Range2D, TimeInt, TimeRange, TimeRangeBoundary};
 use rerun::external::re_sdk_types::blueprint::archetypes::{Background, PlotLegend, TimeAxis, VisualBounds2D};
 
 use super::blueprint_property::Properties;
-use super::planar_entity::PHASE_INPUT;
+use super::entity_path::Entity;
+use super::planar_entity::{CLEARANCES, CONTENTS, GUIDE, PHASE_INPUT, RESULT};
 use super::planar_forcing::recorded;
 use super::planar_grid::{bounds, with_numbers};
 use super::planar_pages::{Page, pages_of};
@@ -38,7 +39,7 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
             let plots = [views.forcing("x", &look, x)?.into(), views.forcing("y", &look, y)?.into()];
             pages.push(Vertical::new(plots).with_name(name).into());
         }
-        let name = format!("{}{}", method.title(), told(guidance));
+        let name = called(guidance, method);
         forcing.push(if pages.len() == 1 { pages.remove(0) } else { Tabs::new(pages).with_name(name).into() });
     }
     let mut right: Vec<ContainerLike> = vec![Tabs::new(forcing).into()];
@@ -48,10 +49,12 @@ pub(super) fn layout(outcome: &PlanarOutcome) -> Result<(Blueprint, Properties),
         right.push(graph.with_visual_bounds(&VisualBounds2D::new(planar_graph::bounds(transitions))).into());
         shares.push(0.55);
     }
+    right.push(pages([("Result", &RESULT), ("Clearances", &CLEARANCES)]).into());
+    shares.push(1.05);
+    let maps = Grid::new(maps).with_grid_columns(columns as u32);
     // A new reader reads first: what says how to is never behind something else.
-    right.push(TextDocumentView::new("Result, and how to read").with_origin("/guide").into());
-    shares.push(1.6);
-    let left = Grid::new(maps).with_grid_columns(columns as u32);
+    let guide = pages([("How to read", &GUIDE), ("What is in the recording", &CONTENTS)]);
+    let left = Vertical::new([maps.into(), guide.into()]).with_row_shares(vec![4.0, 1.0]);
     let right = Vertical::new(right).with_row_shares(shares);
     let blueprint = Blueprint::new(Horizontal::new([left.into(), right.into()]).with_column_shares(vec![1.2, 1.0]))
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
@@ -75,7 +78,7 @@ impl Views {
     fn map(&mut self, guidance: Guidance, method: Method) -> Result<View, Fault> {
         let own = format!("/map/movements/{}/{}/**", guidance.key(), method.key());
         let shared = ["/map", "/map/grid/**", "/map/obstacles", "/map/demonstrations", "/map/goals"].map(str::to_owned);
-        let name = format!("{}{}", method.title(), told(guidance));
+        let name = called(guidance, method);
         let view = view(Spatial2DView::new(name).with_origin("/").with_contents(shared.into_iter().chain([own])))?;
         let [x, y] = self.bounds;
         let range = Range2D { x_range: x.into(), y_range: [-y[1], -y[0]].into() };
@@ -105,13 +108,14 @@ fn inputs(outcome: &PlanarOutcome) -> [i64; 2] {
     [ticks(low - 0.02), ticks(high + 0.02)]
 }
 
-/// What stands behind a method's name where it is told different things.
-fn told(guidance: Guidance) -> &'static str {
-    match guidance {
-        Guidance::OneSide => "",
-        Guidance::WithSide => ", side told",
-        Guidance::WithoutSide => ", side not told",
-    }
+/// Two pages of words, the second behind the first.
+fn pages(pages: [(&str, &Entity); 2]) -> Tabs {
+    Tabs::new(pages.map(|(name, entity)| TextDocumentView::new(name).with_origin(entity.pattern).into()))
+}
+
+/// A method's name, with what it is told.
+fn called(guidance: Guidance, method: Method) -> String {
+    guidance.told().map_or_else(|| method.title().to_owned(), |told| format!("{}, {told}", method.title()))
 }
 
 fn view(built: impl Into<ContainerLike>) -> Result<View, Fault> {

@@ -2,7 +2,7 @@
 
 use super::planar_entity::{CURVE, DEMONSTRATED, GAUSSIANS};
 use super::planar_forcing::{AXES, situation};
-use crate::planar::{ForcingCurve, Guidance, Method, PlanarOutcome, Shown, named};
+use crate::planar::{ForcingCurve, Guidance, Method, Obstacle, PlanarOutcome, Shown, obstacles};
 
 /// Two plots, along x and along y.
 pub(super) struct Page {
@@ -19,8 +19,8 @@ pub(super) struct Page {
 enum About {
     /// Those that were demonstrated, or those that were not.
     Taught(bool),
-    /// Those with an obstacle of this half width (m), with whether that was demonstrated.
-    Width(f64, bool),
+    /// Those with an obstacle that is as wide as this one.
+    Width(Obstacle),
 }
 
 impl About {
@@ -28,21 +28,21 @@ impl About {
         match self {
             Self::Taught(true) => "Demonstrated situations".to_owned(),
             Self::Taught(false) => "New situations".to_owned(),
-            Self::Width(half_width_m, taught) => named(half_width_m, taught),
+            Self::Width(obstacle) => obstacle.name(),
         }
     }
 
     fn has(self, curve: &ForcingCurve) -> bool {
         match self {
             Self::Taught(taught) => curve.taught == taught,
-            Self::Width(half_width_m, _) => curve.half_width_m() == Some(half_width_m),
+            Self::Width(obstacle) => curve.half_width_m() == Some(obstacle.half_width_m()),
         }
     }
 
     fn has_shown(self, shown: &Shown) -> bool {
         match self {
             Self::Taught(taught) => taught,
-            Self::Width(half_width_m, _) => shown.obstacle.half_axes_m[0] == half_width_m,
+            Self::Width(obstacle) => shown.obstacle.half_axes_m[0] == obstacle.half_width_m(),
         }
     }
 }
@@ -60,7 +60,7 @@ pub(super) fn pages_of(outcome: &PlanarOutcome, guidance: Guidance, method: Meth
         Page { name: about.name(), look: look(method, &of_page, !shown.is_empty()), entities }
     };
     let all = [About::Taught(true), About::Taught(false)];
-    let widths = widths(&own);
+    let widths = widths(outcome, &own);
     if widths.len() < 2 {
         all.into_iter().filter(|about| own.iter().any(|curve| about.has(curve))).map(page).collect()
     } else {
@@ -68,12 +68,10 @@ pub(super) fn pages_of(outcome: &PlanarOutcome, guidance: Guidance, method: Meth
     }
 }
 
-/// The half widths (m) that were told, the narrowest first.
-fn widths(own: &[&ForcingCurve]) -> Vec<About> {
-    let mut widths: Vec<(f64, bool)> = own.iter().filter_map(|curve| Some((curve.half_width_m()?, curve.taught))).collect();
-    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    widths.dedup();
-    widths.into_iter().map(|(half_width_m, taught)| About::Width(half_width_m, taught)).collect()
+/// The obstacles whose width was told, the narrowest first.
+fn widths(outcome: &PlanarOutcome, own: &[&ForcingCurve]) -> Vec<About> {
+    let all = obstacles(&outcome.cases).into_iter().map(About::Width);
+    all.filter(|about| own.iter().any(|curve| about.has(curve))).collect()
 }
 
 /// The entities of a curve along an axis: what the model makes, and its states.

@@ -12,9 +12,8 @@ pub(super) fn reading(outcome: &PlanarOutcome) -> String {
 fn plane(outcome: &PlanarOutcome) -> String {
     let obstacles = obstacles(&outcome.cases);
     let new = outcome.cases.iter().any(|case| !case.taught);
-    let thin = if new { ", thin for situations that were demonstrated, thick for others" } else { "" };
-    let mut text =
-        format!("Grey paths: a person showed how to pass an elliptic obstacle. Coloured paths: what each method made of it{thin}; ");
+    let thin = if new { ", thin in situations that were demonstrated, thick in others" } else { "" };
+    let mut text = format!("Grey paths: how a person passed an elliptic obstacle. Coloured paths: what each method made of it{thin}; ");
     text.push_str(&colors(outcome, &obstacles));
     text.push_str(match &goals(outcome)[..] {
         [_] => " Movements should end at the dark point.",
@@ -22,9 +21,9 @@ fn plane(outcome: &PlanarOutcome) -> String {
         _ => " Movements should end at the dark points, which were taught, and the yellow ones, which were not.",
     });
     if outcome.cases.iter().flat_map(|case| &case.movements).any(|movement| movement.collides) {
-        text.push_str(" A large vermilion point is a collision, at the deepest point.");
+        text.push_str(" A large vermilion point is a collision, where it is deepest.");
     }
-    text.push_str(" Dots move along the paths with the cursor over the phase. Lines of the grid are 1 m apart.");
+    text.push_str(" Dots: movements at the cursor's phase. Grid: 1 m.");
     text
 }
 
@@ -58,8 +57,8 @@ fn plots(outcome: &PlanarOutcome) -> String {
     let pages =
         if widths { "Each width of the obstacle has a page." } else { "Situations that were demonstrated and others have a page each." };
     format!(
-        "Plots show forcing terms over the phase. Grey: what the demonstrations ask for (eq. 4 of the paper). Thick lines: what the model makes of it \
-         ({}{of_chain}). Thin ellipses: the states of the model at two standard deviations, green{states_of_chain}. {pages}",
+        "Plots: forcing terms over the phase. Grey: what the demonstrations ask for (eq. 4 of the paper). Thick lines: what the model makes of it \
+         ({}{of_chain}). Thin ellipses: its states at two standard deviations, green{states_of_chain}. {pages}",
         listed(whole)
     )
 }

@@ -2,6 +2,7 @@
 
 use rerun::TextDocument;
 
+use super::arrow::LINEAR_N;
 use super::beside;
 use super::entity_path::{RESULT, SCENE_KEY};
 use super::force_figure::Told;
@@ -42,13 +43,13 @@ pub(super) fn log_key(
         let off = if listens || betas.iter().all(|beta| *beta == 0.0) { "" } else { ", but the coupling is off" };
         lines.push(format!("Ellipsoids, ellipses: states, {}{off}; the active one thick", colors_of(betas).join(", ")));
     }
-    let arrows = [("measured dark blue", true), ("expected yellow", told.expected), ("person vermilion", told.person)];
-    lines.push("Lines: executed thick, others dashed".to_owned());
-    lines.push(format!("Arrows, forces: {}", those(&arrows)));
+    let arrows = [("measured force dark blue", true), ("expected yellow", told.expected), ("person vermilion", told.person)];
+    lines.push("Executed path thick; others thin, dashed".to_owned());
+    lines.push(format!("Arrows: {}; cut above {LINEAR_N} N", those(&arrows)));
     match contacts {
         None => lines.push("White points: contacts; which are forbidden is told when the run is over".to_owned()),
         Some(Contacts { allowed, refused, near }) => {
-            let points = those(&[("forbidden red", refused), ("allowed white", allowed)]);
+            let points = those(&[("forbidden red (words: peak force of a step)", refused), ("allowed white", allowed)]);
             lines.extend((allowed || refused).then(|| format!("Points, contacts: {points}")));
             lines.extend(near.then(|| format!("White line: smallest distance below {:.0} cm", NEAR_M * 1e2)));
         }

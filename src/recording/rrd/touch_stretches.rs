@@ -47,7 +47,7 @@ pub(super) fn stretches(steps: &[StepRecord], episode: usize) -> Vec<Stretch> {
 }
 
 impl Stretch {
-    /// How hard they touched, and how deep, as far as it is known: `: up to 10.8 N, 0.7 mm deep`.
+    /// How hard they touched, and how deep, as far as it is known: `: peak 10.8 N, 0.7 mm deep`.
     pub(super) fn hard_and_deep(&self) -> String {
         hard_and_deep(self.force_n, (-self.distance_m).max(0.0))
     }
@@ -58,7 +58,7 @@ const LEAST_DEPTH_M: f64 = 0.05e-3;
 
 /// How hard something touches (N), and how deep (m), as far as it is known.
 pub(super) fn hard_and_deep(force_n: f64, depth_m: f64) -> String {
-    let force = (!force_n.is_nan()).then(|| format!("up to {force_n:.1} N"));
+    let force = (!force_n.is_nan()).then(|| format!("peak {force_n:.1} N"));
     let depth = (depth_m >= LEAST_DEPTH_M).then(|| format!("{:.1} mm deep", depth_m * 1e3));
     let known: Vec<String> = force.into_iter().chain(depth).collect();
     if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) }
@@ -70,8 +70,8 @@ mod tests {
 
     #[test]
     fn a_depth_that_would_be_written_as_nothing_is_not_written() {
-        assert_eq!(hard_and_deep(401.3, 0.04e-3), ": up to 401.3 N");
-        assert_eq!(hard_and_deep(243.0, 2.4e-3), ": up to 243.0 N, 2.4 mm deep");
+        assert_eq!(hard_and_deep(401.3, 0.04e-3), ": peak 401.3 N");
+        assert_eq!(hard_and_deep(243.0, 2.4e-3), ": peak 243.0 N, 2.4 mm deep");
         assert_eq!(hard_and_deep(f64::NAN, 0.06e-3), ": 0.1 mm deep");
         assert_eq!(hard_and_deep(f64::NAN, 0.0), "");
     }
