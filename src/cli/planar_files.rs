@@ -68,7 +68,7 @@ pub(super) fn figures(name: &str, left: &PlanarOutcome) -> Vec<(&'static str, Fi
     let title = |what: &str| format!("{name}: {what}");
     if left.cases_with(Guidance::OneSide).next().is_some() {
         return vec![
-            ("paths", planar_paths(&title("paths to taught and new goals"), left, Guidance::OneSide)),
+            ("paths", planar_paths(&title("paths to taught and other goals"), left, Guidance::OneSide)),
             ("forcing", planar_forcing(&title("forcing terms and states of CPDMP"), left, Guidance::OneSide, Method::Cpdmp)),
         ];
     }

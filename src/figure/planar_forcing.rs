@@ -68,7 +68,7 @@ fn panel(name: &str, axis: usize, method: Method, own: &[&ForcingCurve], demonst
 /// What the legend calls the line of a curve.
 fn named_line(curve: &ForcingCurve, method: Method) -> String {
     let of = curve.chain.map_or(method.title().to_owned(), chain_name);
-    format!("{of}, {}", if curve.taught { "taught" } else { "new" })
+    format!("{of}, {}", if curve.taught { "taught" } else { "not taught" })
 }
 
 fn outline(state: &StateGaussian, axis: usize) -> Vec<[f64; 2]> {

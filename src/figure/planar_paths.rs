@@ -43,7 +43,7 @@ fn panel(method: Method, outcome: &PlanarOutcome, cases: &[&Case]) -> Chart {
     chart.marks.extend(outcome.demonstrations.iter().map(|shown| Mark::line("demonstrated", GREY, 0.6, shown.path_m.clone())));
     let movements = || cases.iter().flat_map(|case| case.of(method).map(move |movement| (*case, movement)));
     // The legend names the obstacles in their order, whichever is passed first.
-    let entry = |one: &Obstacle| Some(drawn(&one.name(), one.color()?, (one.taught, rank(&obstacles, &one.ellipse)), Vec::new()));
+    let entry = |one: &Obstacle| Some(drawn(&one.name(), one.color()?, (one.is_taught(), rank(&obstacles, &one.ellipse)), Vec::new()));
     chart.marks.extend(obstacles.iter().filter_map(entry));
     let mut paths: Vec<(&Case, &Movement)> = movements().collect();
     paths.sort_by_key(|(case, _)| (case.taught, Reverse(rank(&obstacles, &case.obstacle))));
@@ -70,7 +70,7 @@ fn shapes(obstacles: &[Obstacle]) -> Vec<Mark> {
     obstacles.iter().rev().map(shape).chain(several).collect()
 }
 
-/// Taught and new goals, or the one that all situations share.
+/// Taught and other goals, or the one that all situations share.
 fn goals(cases: &[&Case]) -> Vec<Mark> {
     let of = |taught: bool| cases.iter().filter(move |case| case.taught == taught).map(|case| case.goal_m).collect::<Vec<_>>();
     if let [first, rest @ ..] = cases
@@ -80,7 +80,7 @@ fn goals(cases: &[&Case]) -> Vec<Mark> {
     }
     vec![
         Mark::symbols("taught goal", BLACK, Symbol::Disc, 3.0, of(true)),
-        Mark::symbols("new goal", YELLOW, Symbol::Square, 3.2, of(false)),
+        Mark::symbols("goal that was not taught", YELLOW, Symbol::Square, 3.2, of(false)),
     ]
 }
 
@@ -88,13 +88,13 @@ fn goals(cases: &[&Case]) -> Vec<Mark> {
 fn path(case: &Case, movement: &Movement, obstacles: &[Obstacle]) -> Mark {
     let of_obstacle = obstacles.iter().find(|known| known.ellipse == case.obstacle).and_then(|one| Some((one.name(), one.color()?)));
     let (legend, color) = of_obstacle.unwrap_or_else(|| {
-        let kind = if case.taught { "taught" } else { "new" };
+        let kind = if case.taught { "taught" } else { "not taught" };
         (format!("{}, {kind}", movement.method.title()), movement.method.color())
     });
     drawn(&legend, color, (case.taught, rank(obstacles, &case.obstacle)), movement.path_m.clone())
 }
 
-/// The line of a taught situation, or of a new one, past the obstacle of a rank.
+/// The line of a taught situation, or of another one, past the obstacle of a rank.
 fn drawn(legend: &str, color: Rgb, (taught, rank): (bool, usize), points: Vec<[f64; 2]>) -> Mark {
     let [narrowest, wider] = if taught { TAUGHT_PT } else { NEW_PT };
     let width_pt = narrowest + wider * rank as f64;

@@ -64,14 +64,37 @@ pub struct Case {
     pub winner: Option<Method>,
 }
 
-impl Case {
-    /// What it is beside the demonstrated ones: `taught`, `new` (between them) or `beyond` (outside of them).
+/// What a situation is beside those that were demonstrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Novelty {
+    /// One of them.
+    Taught,
+    /// Between them.
+    New,
+    /// Outside of them.
+    Beyond,
+}
+
+impl Novelty {
+    /// Its name in words and tables.
     #[must_use]
-    pub fn kind(&self) -> &'static str {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Taught => "taught",
+            Self::New => "new",
+            Self::Beyond => "beyond",
+        }
+    }
+}
+
+impl Case {
+    /// What it is beside the demonstrated ones.
+    #[must_use]
+    pub fn novelty(&self) -> Novelty {
         match (self.taught, self.extrapolation > 0.0) {
-            (true, _) => "taught",
-            (false, false) => "new",
-            (false, true) => "beyond",
+            (true, _) => Novelty::Taught,
+            (false, false) => Novelty::New,
+            (false, true) => Novelty::Beyond,
         }
     }
 

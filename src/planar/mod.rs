@@ -23,7 +23,7 @@ mod rival;
 mod two_sided_obstacle;
 mod two_sided_settings;
 
-pub use case::{Case, Ideal, Movement};
+pub use case::{Case, Ideal, Movement, Novelty};
 pub use ellipse::Ellipse;
 pub use forcing::{ForcingCurve, StateGaussian, demonstrated_forcing, forcing_curve};
 pub use hand::{COLUMNS, HandPath, HandSettings};

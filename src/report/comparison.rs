@@ -99,7 +99,7 @@ fn setting(case: &Case) -> SettingReport {
     SettingReport {
         name: case.name.clone(),
         guidance: case.guidance.key(),
-        kind: case.kind(),
+        kind: case.novelty().name(),
         extrapolation: finite(case.extrapolation),
         ideal_clearance_m: case.ideals.iter().map(|ideal| ideal.clearance_m).reduce(f64::min),
         winner: case.winner.map(Method::key),

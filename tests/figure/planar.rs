@@ -69,7 +69,7 @@ fn the_obstacle_is_in_the_legend() {
 #[test]
 fn paths_that_lie_on_each_other_are_all_seen() {
     for panel in planar_paths("", &OUTCOME, Guidance::WithoutSide).panels {
-        for kinds in [&[", taught"][..], &[", new", ", beyond"]] {
+        for kinds in [&[", taught"][..], &[", new", ", beyond", ", not taught"]] {
             let of_kind = |mark: &Mark| kinds.iter().any(|kind| mark.legend.ends_with(kind));
             let widths = panel.marks.iter().filter_map(|mark| match &mark.shape {
                 Shape::Line { width_pt, points, .. } if of_kind(mark) && !points.is_empty() => Some((mark.color, *width_pt)),

@@ -117,3 +117,23 @@ fn a_pair_that_touches_again_is_told_again() {
     assert_eq!(lines(until)[0], format!("ERROR {:.2} s: {over}", last.time_s + 4.1));
     assert!(!lines(until).contains(&begun), "{:?}", lines(until));
 }
+
+/// Contract: the first touch of two parts that may touch is told when it happens, not as a fault; what touches from the start on is no event.
+#[test]
+fn a_touch_that_may_be_is_told_when_it_begins() {
+    let mut outcome = TOUCHING.0.clone();
+    let middle_s = outcome.steps[outcome.steps.len() / 2].time_s + 0.003;
+    let refused = outcome.collisions.iter().find(|contact| !contact.allowed).expect("something touches").clone();
+    for (a, first_time_s) in [("lies", 0.001), ("comes", middle_s)] {
+        let mut contact = refused.clone();
+        (contact.a, contact.first_time_s, contact.allowed) = (a.to_owned(), first_time_s, true);
+        outcome.collisions.push(contact);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("recording.rrd");
+    write_recording(&path, &experiment(), &outcome, "").expect("the recording is written");
+    let events = texts(&chunks(&path), &entity_path::EVENTS, &rerun::TextLog::descriptor_text());
+    let of = |name: &str| events.iter().filter(|(_, text)| text.contains(&format!("{name} touches"))).cloned().collect::<Vec<_>>();
+    assert_eq!(of("comes"), [(ns(middle_s), format!("{middle_s:.2} s: comes touches {}", refused.b))]);
+    assert_eq!(of("lies"), []);
+}

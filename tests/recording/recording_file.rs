@@ -58,6 +58,18 @@ fn lanes_change_when_the_records_do() {
     assert_eq!(texts(&chunks, &entity_path::GRIPPER_LANE, &state), lane(CLOSED, "closed", "open"));
 }
 
+/// Contract: a skill that leaves the gripper as it is has no lane of it.
+#[test]
+fn a_gripper_that_stays_as_it_is_has_no_lane() {
+    let mut outcome = outcome();
+    let gripper = outcome.skill.gripper.as_mut().expect("the skill moves it");
+    gripper.openings.fill(0.0);
+    let (_folder, path) = written(&outcome);
+    let chunks = chunks(&path);
+    assert!(chunks.iter().all(|chunk| *chunk.entity_path() != entity_path::GRIPPER_LANE.path()));
+    assert!(chunks.iter().any(|chunk| *chunk.entity_path() == entity_path::PERSON_LANE.path()));
+}
+
 #[test]
 fn events_tell_what_happened_in_order() {
     let (_folder, path) = written(&outcome());

@@ -109,7 +109,7 @@ entities! {
     GRIPPER_OPENING "plots/gripper/measured" "measured opening of the gripper"
     COMPLIANCE_LANE "lanes/compliance" "whether the arm is stiff or complies"
     STATE_LANE "lanes/state" "the active state"
-    GRIPPER_LANE "lanes/gripper" "whether the gripper is told to be open or closed"
+    GRIPPER_LANE "lanes/gripper" "whether the gripper is told to be open or closed, where the skill changes that"
     PERSON_LANE "lanes/person" "whether the person holds the arm"
     NEAREST "world/nearest/{object}" "where the arm, or what it holds, comes nearest to an object, if within 5 cm: a line while it happens"
     NEAREST_LABEL "world/nearest/{object}/label" "how near, and what, in words beside the scene"

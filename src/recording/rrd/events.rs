@@ -102,7 +102,8 @@ pub(super) fn events(outcome: &RunOutcome) -> Vec<Event> {
     events
 }
 
-/// What two parts that must not touch do: when they begin, and, when it is over, how hard and deep it was.
+/// What two parts that must not touch do in a run that is over: when they begin, and when they end how hard and deep it was. Both are faults, as the
+/// second takes the place of the first beside the scene.
 fn touches(records: &[StepRecord], index: usize, contact: &ContactEpisode) -> Vec<Event> {
     let (a, b) = (&contact.a, &contact.b);
     let fault = |time_s: f64, text: String| Event { time_s, told_until_s: f64::INFINITY, kind: Kind::Fault, text };

@@ -36,9 +36,8 @@ pub(super) fn execution(views: &mut Views, shown: &Shown<'_>) -> Result<Horizont
         right.push(views.bounded_plot(&title, "plots/spread")?.into());
         shares.push(0.7);
     }
-    let lanes = [("Compliance", true), (", gripper", shown.gripper), (", person", true), (", state", shown.states.is_some())];
-    let lanes: String = lanes.into_iter().filter_map(|(lane, there)| there.then_some(lane)).collect();
-    right.push(StateTimelineView::new(lanes).with_origin("/lanes").into());
+    // Each lane has its name; which there are is not known while the arm is taught.
+    right.push(StateTimelineView::new("Compliance, and who does what").with_origin("/lanes").into());
     shares.push(1.5);
     let left = Vertical::new([scene.into(), below_the_scene(views)?.into()]).with_row_shares(vec![2.95, 1.0]);
     Ok(Horizontal::new([left.into(), Vertical::new(right).with_row_shares(shares).into()]).with_column_shares(vec![1.25, 1.0]))

@@ -51,7 +51,7 @@ const MORE: &str = "\
   last, and words beside the scene tell what touches, how hard and how deep in any single step of the engine; the plots show forces as the
   controller estimates them at the logged steps. A white line is a smallest distance, while it happens
 - below the scene: how the run ended, what the colours mean, and what has happened until now; *All events* also lists what is to come
-- plots and lanes are not equally wide: what is the case at one time is below the cursor of each
+- the cursors of plots and lanes are not below each other: each is to be read at its own
 - the forcing term is what bends the movement on its way; on the timeline `phase` it is over the phase, as in the paper's Fig. 6a
 
 The page **Teaching** shows the lessons, one after the other, and the page **Replay** what the arm felt when it repeated them alone. Each has a

@@ -40,14 +40,14 @@ const OVER: &str = "over";
 /// What a lane may show, and in which colour.
 type Legend = Vec<(String, Color)>;
 
-/// Whether a skill closes or opens the gripper: a hand that stays as it is has no lane.
-pub(super) fn grips(skill: &Skill) -> bool {
+/// Whether a skill has the gripper both open and closed: else the lane would show one word.
+fn grips(skill: &Skill) -> bool {
     let openings = skill.gripper.iter().flat_map(|gripper| &gripper.openings);
     let [closed, open] = openings.fold([false; 2], |[closed, open], opening| [closed || *opening < CLOSED, open || *opening >= CLOSED]);
     closed && open
 }
 
-/// Logs all lanes; those of states and gripper only for a skill that has some, with these betas, and that moves it.
+/// Logs all lanes: that of the states for a skill that has some, with these betas, and that of the gripper for one that opens or closes it.
 pub(super) fn log_lanes(recorder: &Recorder, records: &[StepRecord], skill: &Skill, betas: &[f64]) -> Result<(), Fault> {
     let lane = |entity: &Entity, legend: Legend, value: &dyn Fn(&StepRecord) -> String| {
         let values: Vec<String> = records.iter().map(value).collect();

@@ -36,8 +36,6 @@ pub(super) struct Shown<'a> {
     pub spread_unit: &'static str,
     /// Whether the person helps.
     pub person: bool,
-    /// Whether the skill moves the gripper, as far as it is known.
-    pub gripper: bool,
     /// The scenario's name.
     pub scenario: &'a str,
 }

@@ -6,7 +6,7 @@ use super::chapters::{APPLICATION, Chapters};
 use super::floor::floor_m;
 use super::layout::Shown;
 use super::recorder::Fault;
-use super::{blueprint_property, contact_figure, lanes, layout, scene_key};
+use super::{blueprint_property, contact_figure, layout, scene_key};
 use crate::learning::ShapingKind;
 use crate::learning::cpdmp::spread_unit;
 use crate::robot::RobotModel;
@@ -28,7 +28,6 @@ impl Chapters<'_> {
             states: (learning.shaping != ShapingKind::Lwr).then(|| scene_key::colors_in_title(&execution.coupling, betas.as_deref())),
             spread_unit: skill.map_or("mm or mrad", |outcome| spread_unit(&outcome.skill.motion.columns)),
             person: execution.help != Help::None,
-            gripper: skill.is_none_or(|outcome| lanes::grips(&outcome.skill)),
             scenario: &self.experiment.name,
         };
         let (blueprint, properties) = layout::layout(&shown, &self.ranges, play)?;

@@ -26,7 +26,7 @@ entities! {
     CURVE "forcing/{told}/{method}/{axis}/curves/{situation}" "forcing term of the model in a situation, a thick line (m)"
     GRAPH "transitions" "which state of the model that is not told the side follows which, each chain in a colour"
     RESULT "result" "how the experiment ended: its criteria, and which movements collide"
-    CLEARANCES "clearances" "what every method makes of every situation, and how often each transition of the graph is taken"
+    CLEARANCES "clearances" "how near every movement comes to the obstacle"
     GUIDE "guide" "how to read this recording"
     CONTENTS "contents" "its timeline and its entities"
 }

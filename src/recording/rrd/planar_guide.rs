@@ -27,10 +27,10 @@ fn ending(outcome: &PlanarOutcome, result: &str) -> String {
     format!("**{headline}**; {} demonstrations\n\n{answers}\n\nCollisions: {collide}\n", outcome.demonstrations.len())
 }
 
-/// Which methods collide in a situation.
+/// Which movements collide in a situation.
 fn collisions(case: &Case) -> Option<String> {
-    let colliding: Vec<&str> = case.movements.iter().filter(|movement| movement.collides).map(|movement| movement.method.title()).collect();
-    (!colliding.is_empty()).then(|| format!("{} ({}{}): {}", case.name, told(case), case.kind(), colliding.join(", ")))
+    let colliding: Vec<String> = case.movements.iter().filter(|movement| movement.collides).map(title).collect();
+    (!colliding.is_empty()).then(|| format!("{} ({}{}): {}", case.name, told(case), case.novelty().name(), colliding.join(" and ")))
 }
 
 /// `side told, `, where there are sides.
@@ -43,17 +43,22 @@ fn clearances(outcome: &PlanarOutcome) -> String {
     let mut page = "Smallest distance of each movement to the obstacle; below 0 m it is inside.\n\n".to_owned();
     for case in &outcome.cases {
         let each: Vec<String> = case.movements.iter().map(clearance).collect();
-        page.push_str(&format!("- `{}` ({}{}): {}\n", case.name, told(case), case.kind(), each.join("; ")));
+        page.push_str(&format!("- `{}` ({}{}): {}\n", case.name, told(case), case.novelty().name(), each.join("; ")));
     }
     page.extend(outcome.transitions.iter().map(shares));
     page
 }
 
-/// What a method makes of a situation.
+/// How near a movement comes.
 fn clearance(movement: &Movement) -> String {
     let hit = if movement.collides { ", collides" } else { "" };
+    format!("{} {:.2} m{hit}", title(movement), movement.clearance_m)
+}
+
+/// What made a movement: a method, and of several chains which.
+fn title(movement: &Movement) -> String {
     let chain = movement.chain.map_or_else(String::new, |chain| format!(" ({})", chain + 1));
-    format!("{}{chain} {:.2} m{hit}", movement.method.title(), movement.clearance_m)
+    format!("{}{chain}", movement.method.title())
 }
 
 /// How often each transition of the graph is taken.

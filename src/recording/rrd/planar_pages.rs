@@ -27,7 +27,7 @@ impl About {
     fn name(self) -> String {
         match self {
             Self::Taught(true) => "Demonstrated situations".to_owned(),
-            Self::Taught(false) => "New situations".to_owned(),
+            Self::Taught(false) => "Other situations".to_owned(),
             Self::Width(obstacle) => obstacle.name(),
         }
     }

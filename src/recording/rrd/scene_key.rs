@@ -45,11 +45,11 @@ pub(super) fn log_key(
     }
     let arrows = [("measured force dark blue", true), ("expected yellow", told.expected), ("person vermilion", told.person)];
     lines.push("Executed path thick; others thin, dashed".to_owned());
-    lines.push(format!("Arrows: {}; cut above {LINEAR_N} N", those(&arrows)));
+    lines.push(format!("Arrows: {}; hardly longer above {LINEAR_N} N", those(&arrows)));
     match contacts {
         None => lines.push("White points: contacts; which are forbidden is told when the run is over".to_owned()),
         Some(Contacts { allowed, refused, near }) => {
-            let points = those(&[("forbidden red (words: peak force of a step)", refused), ("allowed white", allowed)]);
+            let points = those(&[("forbidden red, with the peak force in one step", refused), ("allowed white", allowed)]);
             lines.extend((allowed || refused).then(|| format!("Points, contacts: {points}")));
             lines.extend(near.then(|| format!("White line: smallest distance below {:.0} cm", NEAR_M * 1e2)));
         }

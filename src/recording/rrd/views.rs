@@ -64,7 +64,7 @@ impl Views {
         self.plot_with(name, origin, (LEAST_STEP, 0.0))
     }
 
-    /// The same for a place that is lower than others, of what may end at a bound: with free space above, a line there is none of the frame.
+    /// The same for a place that is lower than others, of what may end at a bound: with free space above, so that a line there is not taken for the frame.
     pub fn bounded_plot(&mut self, name: &str, origin: &str) -> Result<View, Fault> {
         let range = self.ranges.of(origin, LEAST_STEP_OF_LOW, 0.0);
         self.plot_in(name, origin, range.map(|[low, high]| [low, high + 0.15 * (high - low)]))
